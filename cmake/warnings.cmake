@@ -1,0 +1,15 @@
+# Flags for our own targets only: link plcgw_flags PRIVATE.
+add_library(plcgw_flags INTERFACE)
+target_compile_options(plcgw_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Woverloaded-virtual)
+if(PLCGW_WERROR)
+  target_compile_options(plcgw_flags INTERFACE -Werror)
+endif()
+if(PLCGW_SANITIZE)
+  add_compile_options(-fsanitize=${PLCGW_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${PLCGW_SANITIZE})
+endif()
+find_program(LLD ld.lld)
+if(LLD)
+  add_link_options(-fuse-ld=lld)
+endif()

@@ -1,0 +1,34 @@
+#include "protocols/errc.hpp"
+
+#include <string>
+
+namespace plcgw {
+namespace {
+
+class category final : public boost::system::error_category {
+public:
+    const char* name() const noexcept override { return "plc-gateway"; }
+    std::string message(int value) const override
+    {
+        switch (static_cast<errc>(value)) {
+        case errc::bad_checksum: return "bad checksum";
+        case errc::bad_header: return "not a frame of this protocol";
+        case errc::incomplete: return "incomplete frame";
+        case errc::timed_out: return "no answer";
+        case errc::unexpected_answer: return "answer does not fit the question";
+        case errc::line_not_quiet: return "line not quiet";
+        case errc::port_absent: return "port absent";
+        }
+        return "unknown error";
+    }
+};
+
+}  // namespace
+
+const boost::system::error_category& protocol_category() noexcept
+{
+    static const category instance;
+    return instance;
+}
+
+}  // namespace plcgw

@@ -1,0 +1,10 @@
+// CRC-16 of MODBUS over Serial Line V1.02 section 6.2.2 (FX3 manual 7.2.1): polynomial A001H, start FFFFH.
+#pragma once
+
+#include "protocols/bytes.hpp"
+
+namespace plcgw::modbus {
+
+std::uint16_t crc16(bytes data);  // sent low byte first
+
+}  // namespace plcgw::modbus

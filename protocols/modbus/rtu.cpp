@@ -1,0 +1,70 @@
+#include "protocols/modbus/rtu.hpp"
+
+#include "protocols/modbus/crc.hpp"
+
+namespace plcgw::modbus {
+namespace {
+
+bool crc_fits(bytes adu) { return crc16(adu) == 0; }  // over data and its own CRC the remainder is zero
+
+// Bytes that are kept although no answer is in them yet: enough for any noise before the longest frame.
+constexpr std::size_t most_kept = 4 * max_rtu_size;
+
+}  // namespace
+
+buffer encode_rtu(const frame& f)
+{
+    buffer adu;
+    adu.reserve(f.pdu.size() + rtu_overhead);
+    adu.push_back(static_cast<std::uint8_t>(f.unit));
+    adu.insert(adu.end(), f.pdu.begin(), f.pdu.end());
+    const std::uint16_t crc = crc16(adu);
+    adu.push_back(static_cast<std::uint8_t>(crc & 0xFF));
+    adu.push_back(static_cast<std::uint8_t>(crc >> 8));
+    return adu;
+}
+
+rtu_answer::rtu_answer(unit_id unit, const request& question)
+    : unit_(unit), question_(&question), function_(static_cast<std::uint8_t>(function_of(question))),
+      response_size_(modbus::response_size(question))
+{
+}
+
+std::optional<response> rtu_answer::feed(bytes received)
+{
+    received_.insert(received_.end(), received.begin(), received.end());
+    for (std::size_t start = 0; start + 2 <= received_.size(); ++start)
+        if (auto answer = answer_at(start))
+            return answer;
+    if (received_.size() > most_kept)
+        received_.erase(received_.begin(), received_.end() - most_kept / 2);
+    return std::nullopt;
+}
+
+std::optional<response> rtu_answer::answer_at(std::size_t start) const
+{
+    const bytes rest = bytes(received_).subspan(start);
+    if (rest[0] != static_cast<std::uint8_t>(unit_) || (rest[1] & 0x7F) != function_)
+        return std::nullopt;
+    const std::size_t size = rest[1] == function_ ? response_size_ : exception_size;
+    if (rest.size() < size + rtu_overhead || !crc_fits(rest.first(size + rtu_overhead)))
+        return std::nullopt;
+    auto answer = parse_response(*question_, rest.subspan(1, size));
+    if (!answer)
+        return std::nullopt;
+    return std::move(*answer);
+}
+
+errc rtu_answer::failure() const
+{
+    if (received_.empty())
+        return errc::timed_out;
+    if (received_.size() < exception_size + rtu_overhead)
+        return errc::incomplete;
+    if (crc_fits(received_))
+        return errc::unexpected_answer;
+    const bool answers_us = received_[0] == static_cast<std::uint8_t>(unit_) && received_[1] == function_;
+    return answers_us && received_.size() < response_size_ + rtu_overhead ? errc::incomplete : errc::bad_checksum;
+}
+
+}  // namespace plcgw::modbus

@@ -1,0 +1,117 @@
+#include "protocols/modbus/rtu_transaction.hpp"
+
+#include <algorithm>
+
+namespace plcgw::modbus {
+
+rtu_transaction::rtu_transaction(unit_id unit, request question, const rtu_timing& timing, time_point line_free_from,
+                                 time_point now)
+    : unit_(unit), question_(std::move(question)), timing_(timing), adu_(encode_rtu({unit, encode_request(question_)})),
+      line_free_from_(line_free_from),
+      give_up_(std::max(now, line_free_from) + timing.response_timeout)
+{
+}
+
+duration rtu_transaction::gap() const { return std::max(timing_.gap, frame_gap(timing_.format)); }
+
+// The end of a damaged answer. A line that babbles for ever does not hold us for longer than an answer can last.
+time_point rtu_transaction::silence_ends() const
+{
+    const time_point longest = sent_until_ + timing_.response_timeout + character_time(timing_.format, max_rtu_size);
+    return std::min(heard_, longest) + timing_.silence;
+}
+
+rtu_transaction::action rtu_transaction::next(time_point now)
+{
+    switch (state_) {
+    case state::wait_for_line:
+        if (now < line_free_from_ && now >= give_up_) {
+            finish(make_error_code(errc::line_not_quiet));
+            return done{};
+        }
+        if (now < line_free_from_)
+            return wait{std::min(line_free_from_, give_up_)};
+        state_ = state::sending;
+        return send{adu_};
+
+    case state::sending:
+        return send{adu_};
+
+    case state::wait_for_answer:
+        if (now < sent_until_ + timing_.response_timeout)
+            return wait{sent_until_ + timing_.response_timeout};
+        fail_attempt(now, errc::timed_out);
+        return next(now);
+
+    case state::wait_for_silence:
+        if (now < silence_ends())
+            return wait{silence_ends()};
+        fail_attempt(now, answer_->failure());
+        return next(now);
+
+    case state::finished:
+        break;
+    }
+    return done{};
+}
+
+void rtu_transaction::sent(time_point now)
+{
+    ++attempts_;
+    sent_until_ = now + character_time(timing_.format, adu_.size());
+    if (unit_ == unit_id::broadcast) {
+        line_free_from_ = sent_until_ + std::max(timing_.turnaround, gap());
+        finish(response{written{}});
+        return;
+    }
+    answer_.emplace(unit_, question_);
+    state_ = state::wait_for_answer;
+}
+
+void rtu_transaction::feed(time_point now, bytes received)
+{
+    if (received.empty())
+        return;
+    heard_ = now;
+    if (state_ != state::wait_for_answer && state_ != state::wait_for_silence) {
+        stray_bytes_ += received.size();
+        line_free_from_ = std::max(line_free_from_, now + gap());
+        return;
+    }
+    if (auto answer = answer_->feed(received))
+        answered(now, std::move(*answer));
+    else
+        state_ = state::wait_for_silence;
+}
+
+void rtu_transaction::answered(time_point now, response answer)
+{
+    response_time_ = std::max(duration{}, now - sent_until_);
+    line_free_from_ = now + gap();
+    // The answer may belong to an earlier attempt. Then one more is on its way, as late as this one, and must not meet
+    // the next question: let it pass first.
+    if (unanswered_since_)
+        line_free_from_ = std::max(line_free_from_, sent_until_ + (now - *unanswered_since_) + timing_.silence);
+    finish(std::move(answer));
+}
+
+void rtu_transaction::fail_attempt(time_point now, errc reason)
+{
+    if (reason == errc::timed_out && !unanswered_since_)
+        unanswered_since_ = sent_until_;
+    line_free_from_ = std::max(heard_ + gap(), now);
+    if (attempts_ > timing_.retries) {
+        finish(make_error_code(reason));
+        return;
+    }
+    give_up_ = line_free_from_ + timing_.response_timeout;
+    state_ = state::wait_for_line;
+}
+
+void rtu_transaction::finish(result<response> outcome)
+{
+    outcome_ = std::move(outcome);
+    state_ = state::finished;
+}
+
+}  // namespace plcgw::modbus
