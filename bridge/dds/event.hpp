@@ -1,0 +1,48 @@
+// What a subscriber hears: registers, a gateway's status, or that there is nobody left who writes them.
+#pragma once
+
+#include "bridge/dds/gateway_status.hpp"
+#include "bridge/sample.hpp"
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+namespace plcgw {
+
+struct received_block {
+    std::string gateway;
+    std::string member;  // which process wrote it
+    std::uint64_t seq{};
+    std::uint16_t code{};  // quality as sent: QUALITY_* of registers.idl, or a code of a later version
+    sample value;
+};
+
+struct received_status {
+    dds_identity who;
+    gateway_status status;
+    std::uint64_t beat{};
+};
+
+enum class gone_reason : std::uint8_t {
+    disposed,     // the route went away
+    writer_lost,  // the gateway ended, or was not heard for its lease: the last values are old
+};
+
+struct gone_block {
+    std::string gateway;
+    std::string route;
+    std::string area;
+    std::uint32_t first{};
+    gone_reason reason{};
+};
+
+struct gone_gateway {
+    std::string gateway;
+    std::string member;
+    gone_reason reason{};
+};
+
+using dds_event = std::variant<received_block, received_status, gone_block, gone_gateway>;
+
+}  // namespace plcgw

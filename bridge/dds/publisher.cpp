@@ -1,0 +1,159 @@
+#include "bridge/dds/publisher.hpp"
+
+#include "bridge/dds/bounded_string.hpp"
+#include "bridge/dds/domain.hpp"
+#include "bridge/dds/log_capture.hpp"
+#include "bridge/dds/quality_code.hpp"
+#include "registers.h"
+
+#include <dds/dds.h>
+
+#include <map>
+#include <tuple>
+
+namespace plcgw {
+namespace {
+
+using instance_key = std::tuple<std::string, std::string, std::uint32_t>;
+
+qos_ptr writer_qos()
+{
+    qos_ptr qos = state_qos();
+    // Fast DDS 2.x knows XCDR1 only. Values stay when the gateway ends: it did not dispose of the registers.
+    const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
+    dds_qset_data_representation(qos.get(), 1, &xcdr1);
+    dds_qset_writer_data_lifecycle(qos.get(), false);
+    return qos;
+}
+
+}  // namespace
+
+struct dds_publisher::state {
+    dds_identity who;
+    std::unique_ptr<dds_participant> participant;
+    dds_entity_t blocks{};    // writer of RegisterBlock
+    dds_entity_t statuses{};  // writer of GatewayStatus
+    std::map<instance_key, std::uint64_t, std::less<>> sequence;
+    std::uint64_t beat = 0;
+    std::uint64_t published = 0;
+    std::uint64_t drops = 0;
+    dds_return_t last_error = DDS_RETCODE_OK;
+
+    plcgw_v1_RegisterBlock keyed(const sample& s) const;
+    void count(dds_return_t written);
+};
+
+dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dds_identity who)
+{
+    auto participant = dds_participant::open(settings);
+    if (!participant)
+        return participant.error();
+
+    auto made = std::make_unique<state>();
+    made->who = std::move(who);
+    made->participant = std::move(*participant);
+    const dds_entity_t parent = made->participant->entity();
+
+    log_capture log;
+    const dds_entity_t publisher = dds_create_publisher(parent, partition_qos(settings).get(), nullptr);
+    if (publisher < 0)
+        return creation_error("DDS publisher", publisher, log.text());
+    const auto create_writer = [&](const dds_topic_descriptor_t& type, const char* name) {
+        const dds_entity_t topic = dds_create_topic(parent, &type, name, nullptr, nullptr);
+        return topic < 0 ? topic : dds_create_writer(publisher, topic, writer_qos().get(), nullptr);
+    };
+    made->blocks = create_writer(plcgw_v1_RegisterBlock_desc, register_block_topic);
+    if (made->blocks < 0)
+        return creation_error("DDS writer of RegisterBlock", made->blocks, log.text());
+    made->statuses = create_writer(plcgw_v1_GatewayStatus_desc, gateway_status_topic);
+    if (made->statuses < 0)
+        return creation_error("DDS writer of GatewayStatus", made->statuses, log.text());
+    return dds_publisher(std::move(made));
+}
+
+dds_publisher::dds_publisher(std::unique_ptr<state> s) : state_(std::move(s)) {}
+dds_publisher::dds_publisher(dds_publisher&&) noexcept = default;
+dds_publisher& dds_publisher::operator=(dds_publisher&&) noexcept = default;
+dds_publisher::~dds_publisher() = default;
+
+plcgw_v1_RegisterBlock dds_publisher::state::keyed(const sample& s) const
+{
+    plcgw_v1_RegisterBlock block{};
+    fill_string(block.gateway, who.gateway);
+    fill_string(block.route, s.route);
+    fill_string(block.area, s.area);
+    block.first = s.first;
+    return block;
+}
+
+void dds_publisher::state::count(dds_return_t written)
+{
+    if (written == DDS_RETCODE_OK) {
+        ++published;
+        return;
+    }
+    ++drops;
+    last_error = written;
+}
+
+void dds_publisher::publish(const sample& s)
+{
+    auto instance = state_->sequence.find(std::tie(s.route, s.area, s.first));
+    if (instance == state_->sequence.end())
+        instance = state_->sequence.emplace(instance_key(s.route, s.area, s.first), 0).first;
+
+    plcgw_v1_RegisterBlock block = state_->keyed(s);
+    fill_string(block.member, state_->who.member);
+    block.seq = ++instance->second;
+    block.source_ns = static_cast<std::int64_t>(s.source);
+    block.quality = quality_code(s.state);
+    block.format = s.format == sample_format::bits ? plcgw_v1_FORMAT_BITS : plcgw_v1_FORMAT_WORDS;
+    block.count = s.count;
+    block.words._length = block.words._maximum = static_cast<std::uint32_t>(s.words.size());
+    block.words._buffer = const_cast<std::uint16_t*>(s.words.data());  // dds_write only reads it
+    state_->count(dds_write(state_->blocks, &block));
+}
+
+void dds_publisher::publish(const gateway_status& status)
+{
+    plcgw_v1_GatewayStatus out{};
+    fill_string(out.gateway, state_->who.gateway);
+    fill_string(out.member, state_->who.member);
+    out.role = static_cast<std::uint8_t>(status.role);
+    out.strength = status.strength;
+    out.started_ns = static_cast<std::int64_t>(status.started);
+    out.beat = ++state_->beat;
+    out.routes_up = status.routes_up;
+    out.routes_total = status.routes_total;
+    fill_string(out.version, state_->who.version);
+    fill_string(out.config_hash, state_->who.config_hash);
+    state_->count(dds_write(state_->statuses, &out));
+}
+
+void dds_publisher::dispose(const sample& key)
+{
+    const auto instance = state_->sequence.find(std::tie(key.route, key.area, key.first));
+    if (instance == state_->sequence.end())
+        return;
+    state_->sequence.erase(instance);
+    const plcgw_v1_RegisterBlock block = state_->keyed(key);
+    dds_return_t written = dds_dispose(state_->blocks, &block);
+    if (written == DDS_RETCODE_OK)
+        written = dds_unregister_instance(state_->blocks, &block);  // frees most of the instance's memory
+    state_->count(written);
+}
+
+std::uint64_t dds_publisher::published() const
+{
+    return state_->published;
+}
+std::uint64_t dds_publisher::drops() const
+{
+    return state_->drops;
+}
+std::string dds_publisher::last_error() const
+{
+    return state_->last_error == DDS_RETCODE_OK ? "" : dds_strretcode(state_->last_error);
+}
+
+}  // namespace plcgw

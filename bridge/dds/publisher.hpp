@@ -1,0 +1,42 @@
+// Publishes registers and the gateway's status as DDS state topics: a late subscriber gets the last value of each.
+#pragma once
+
+#include "bridge/dds/error.hpp"
+#include "bridge/dds/gateway_status.hpp"
+#include "bridge/dds/settings.hpp"
+#include "bridge/sample.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+namespace plcgw {
+
+// Create, use and destroy on one thread. Nothing here waits: not for a network, not for a reader that has stopped.
+class dds_publisher {
+public:
+    static dds_result<dds_publisher> create(const dds_settings& settings, dds_identity who);
+
+    dds_publisher(dds_publisher&&) noexcept;
+    dds_publisher& operator=(dds_publisher&&) noexcept;
+    ~dds_publisher();
+
+    // Route, area and first are the key: a fixed set, since Cyclone never frees all of a key's memory. A name longer
+    // than 64 bytes (area: 32) is cut.
+    void publish(const sample& s);
+    void publish(const gateway_status& status);
+
+    // The route of this sample went away: readers see its instance disposed. Only the key is looked at.
+    void dispose(const sample& key);
+
+    std::uint64_t published() const;
+    std::uint64_t drops() const;     // what could not be written, e.g. more than 1024 words
+    std::string last_error() const;  // why the last one was dropped, empty if none was
+
+private:
+    struct state;
+    explicit dds_publisher(std::unique_ptr<state> s);
+    std::unique_ptr<state> state_;
+};
+
+}  // namespace plcgw

@@ -1,0 +1,173 @@
+#include "bridge/dds/subscriber.hpp"
+
+#include "bridge/dds/bounded_string.hpp"
+#include "bridge/dds/domain.hpp"
+#include "bridge/dds/log_capture.hpp"
+#include "bridge/dds/quality_code.hpp"
+#include "registers.h"
+
+#include <dds/dds.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+namespace plcgw {
+namespace {
+
+// Runs on Cyclone's threads with its locks held, and wake-ups coalesce in the counter: one write and nothing else.
+void wake(int descriptor)
+{
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
+}
+
+void on_data(dds_entity_t, void* descriptor)
+{
+    wake(*static_cast<int*>(descriptor));
+}
+
+std::string text(std::span<const char> in)
+{
+    return std::string(read_string(in));
+}
+
+dds_event received(const plcgw_v1_RegisterBlock& in)
+{
+    received_block out{text(in.gateway), text(in.member), in.seq, in.quality, {}};
+    out.value.route = text(in.route);
+    out.value.area = text(in.area);
+    out.value.first = in.first;
+    out.value.format = in.format == plcgw_v1_FORMAT_BITS ? sample_format::bits : sample_format::words;
+    out.value.count = in.count;
+    out.value.words.assign(in.words._buffer, in.words._buffer + in.words._length);
+    out.value.state = quality_from_code(in.quality);
+    out.value.source = wall_time{in.source_ns};
+    return out;
+}
+
+dds_event received(const plcgw_v1_GatewayStatus& in)
+{
+    received_status out;
+    out.who = {text(in.gateway), text(in.member), text(in.version), text(in.config_hash)};
+    out.status.role = gateway_role{in.role};
+    out.status.strength = in.strength;
+    out.status.started = wall_time{in.started_ns};
+    out.status.routes_up = in.routes_up;
+    out.status.routes_total = in.routes_total;
+    out.beat = in.beat;
+    return out;
+}
+
+dds_event gone(const plcgw_v1_RegisterBlock& key, gone_reason reason)
+{
+    return gone_block{text(key.gateway), text(key.route), text(key.area), key.first, reason};
+}
+
+dds_event gone(const plcgw_v1_GatewayStatus& key, gone_reason reason)
+{
+    return gone_gateway{text(key.gateway), text(key.member), reason};
+}
+
+// One loan of Cyclone; false when the reader is empty.
+template <class Topic>
+bool take_some(dds_entity_t reader, std::vector<dds_event>& events)
+{
+    constexpr std::size_t most = 64;
+    std::array<void*, most> samples{};
+    std::array<dds_sample_info_t, most> infos;
+    const dds_return_t taken = dds_take(reader, samples.data(), infos.data(), most, most);
+    if (taken <= 0)
+        return false;
+
+    for (std::size_t i = 0; i < static_cast<std::size_t>(taken); ++i) {
+        const auto& in = *static_cast<const Topic*>(samples[i]);
+        const auto& info = infos[i];
+        if (info.valid_data)
+            events.push_back(received(in));
+        // The last value and the end of its writer can come as one sample.
+        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE && info.sample_rank == 0)
+            events.push_back(gone(in, info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE
+                                          ? gone_reason::disposed
+                                          : gone_reason::writer_lost));
+    }
+    dds_return_loan(reader, samples.data(), taken);
+    return true;
+}
+
+}  // namespace
+
+struct dds_subscriber::state {
+    int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    std::unique_ptr<dds_participant> participant;
+    dds_entity_t blocks{};    // reader of RegisterBlock
+    dds_entity_t statuses{};  // reader of GatewayStatus
+
+    ~state()
+    {
+        participant.reset();  // waits for running listeners, which write to the descriptor
+        if (descriptor >= 0)
+            ::close(descriptor);
+    }
+};
+
+dds_result<dds_subscriber> dds_subscriber::create(const dds_settings& settings)
+{
+    auto made = std::make_unique<state>();
+    if (made->descriptor < 0)
+        return dds_error{std::string("cannot create an eventfd: ") + std::strerror(errno)};
+    auto participant = dds_participant::open(settings);
+    if (!participant)
+        return participant.error();
+    made->participant = std::move(*participant);
+    const dds_entity_t parent = made->participant->entity();
+
+    log_capture log;
+    const dds_entity_t subscriber = dds_create_subscriber(parent, partition_qos(settings).get(), nullptr);
+    if (subscriber < 0)
+        return creation_error("DDS subscriber", subscriber, log.text());
+    const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
+        dds_create_listener(&made->descriptor), dds_delete_listener);
+    dds_lset_data_available(listener.get(), on_data);
+    const auto create_reader = [&](const dds_topic_descriptor_t& type, const char* name) {
+        const dds_entity_t topic = dds_create_topic(parent, &type, name, nullptr, nullptr);
+        return topic < 0 ? topic : dds_create_reader(subscriber, topic, state_qos().get(), listener.get());
+    };
+    made->blocks = create_reader(plcgw_v1_RegisterBlock_desc, register_block_topic);
+    if (made->blocks < 0)
+        return creation_error("DDS reader of RegisterBlock", made->blocks, log.text());
+    made->statuses = create_reader(plcgw_v1_GatewayStatus_desc, gateway_status_topic);
+    if (made->statuses < 0)
+        return creation_error("DDS reader of GatewayStatus", made->statuses, log.text());
+    return dds_subscriber(std::move(made));
+}
+
+dds_subscriber::dds_subscriber(std::unique_ptr<state> s) : state_(std::move(s)) {}
+dds_subscriber::dds_subscriber(dds_subscriber&&) noexcept = default;
+dds_subscriber& dds_subscriber::operator=(dds_subscriber&&) noexcept = default;
+dds_subscriber::~dds_subscriber() = default;
+
+int dds_subscriber::descriptor() const
+{
+    return state_->descriptor;
+}
+
+std::vector<dds_event> dds_subscriber::take(std::size_t most)
+{
+    std::uint64_t wakes = 0;
+    [[maybe_unused]] const auto size = ::read(state_->descriptor, &wakes, sizeof wakes);
+
+    std::vector<dds_event> events;
+    bool more = true;
+    while (more && events.size() < most) {
+        const bool statuses = take_some<plcgw_v1_GatewayStatus>(state_->statuses, events);
+        more = take_some<plcgw_v1_RegisterBlock>(state_->blocks, events) || statuses;
+    }
+    if (more)
+        wake(state_->descriptor);
+    return events;
+}
+
+}  // namespace plcgw

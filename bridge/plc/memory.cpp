@@ -1,0 +1,129 @@
+#include "bridge/plc/memory.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace plcgw::plc {
+namespace {
+
+void append(std::vector<change>& changes, const change& next)
+{
+    if (!changes.empty() && changes.back().area == next.area &&
+        changes.back().first_bit + changes.back().count == next.first_bit)
+        changes.back().count += next.count;
+    else
+        changes.push_back(next);
+}
+
+}  // namespace
+
+bool overlaps(const change& changed, place first, std::size_t bits)
+{
+    return changed.area == first.area && changed.first_bit < first.bit + bits &&
+           first.bit < changed.first_bit + changed.count;
+}
+
+memory::memory(const plc::model& m) : model_(&m)
+{
+    for (const area& a : m.areas) {
+        image& made = images_.emplace_back();
+        made.registers.resize((a.count * a.bits_per_device + 15) / 16);
+        made.dirty.resize(made.registers.size());
+    }
+}
+
+std::optional<place> memory::find(device d) const
+{
+    for (std::size_t i = 0; i < model_->areas.size(); ++i) {
+        const area& a = model_->areas[i];
+        if (a.kind == d.kind && d.number >= a.first && d.number - a.first < a.count)
+            return place{i, std::size_t{d.number - a.first} * a.bits_per_device};
+    }
+    return std::nullopt;
+}
+
+std::size_t memory::bits_from(place p) const
+{
+    const area& a = model_->areas[p.area];
+    return std::size_t{a.count} * a.bits_per_device - p.bit;
+}
+
+bool memory::bit(place p) const { return (images_[p.area].registers[p.bit / 16] >> (p.bit % 16) & 1U) != 0; }
+
+std::uint16_t memory::word(place p) const
+{
+    const auto& registers = images_[p.area].registers;
+    const std::size_t index = p.bit / 16;
+    const std::size_t shift = p.bit % 16;
+    std::uint32_t pair = registers[index];
+    if (shift != 0)  // a run of bits that begins inside a register
+        pair |= std::uint32_t{registers[index + 1]} << 16;
+    return static_cast<std::uint16_t>(pair >> shift);
+}
+
+void memory::read(place p, std::span<std::uint16_t> words) const
+{
+    for (std::uint16_t& value : words) {
+        value = word(p);
+        p.bit += 16;
+    }
+}
+
+void memory::set_bit(place p, bool value)
+{
+    image& of = images_[p.area];
+    const std::uint16_t before = of.registers[p.bit / 16];
+    const auto mask = static_cast<std::uint16_t>(1U << (p.bit % 16));
+    store(of, p.bit / 16, static_cast<std::uint16_t>(value ? before | mask : before & ~mask));
+}
+
+void memory::set_word(place p, std::uint16_t value)
+{
+    image& of = images_[p.area];
+    const std::size_t index = p.bit / 16;
+    const std::size_t shift = p.bit % 16;
+    const std::uint32_t mask = 0xFFFFU << shift;
+    const std::uint32_t moved = std::uint32_t{value} << shift;
+    store(of, index, static_cast<std::uint16_t>((of.registers[index] & ~mask) | (moved & 0xFFFF)));
+    if (shift != 0)
+        store(of, index + 1, static_cast<std::uint16_t>((of.registers[index + 1] & ~(mask >> 16)) | moved >> 16));
+}
+
+void memory::store(image& of, std::size_t index, std::uint16_t value)
+{
+    if (of.registers[index] == value)
+        return;
+    of.dirty[index] = static_cast<std::uint16_t>(of.dirty[index] | (of.registers[index] ^ value));
+    of.registers[index] = value;
+    if (of.dirty_begin == of.dirty_end) {
+        of.dirty_begin = index;
+        of.dirty_end = index;
+    }
+    of.dirty_begin = std::min(of.dirty_begin, index);
+    of.dirty_end = std::max(of.dirty_end, index + 1);
+    changed_ = true;
+}
+
+std::vector<change> memory::take_changes()
+{
+    std::vector<change> changes;
+    if (!changed_)
+        return changes;
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        image& of = images_[i];
+        const bool bit_devices = model_->areas[i].bits_per_device == 1;
+        for (std::size_t at = of.dirty_begin; at < of.dirty_end; ++at) {
+            const unsigned dirty = std::exchange(of.dirty[at], std::uint16_t{0});
+            if (dirty != 0 && !bit_devices)
+                append(changes, {i, 16 * at, 16});
+            for (std::size_t bit = 0; bit_devices && bit < 16; ++bit)
+                if ((dirty >> bit & 1U) != 0)
+                    append(changes, {i, 16 * at + bit, 1});
+        }
+        of.dirty_begin = of.dirty_end = 0;
+    }
+    changed_ = false;
+    return changes;
+}
+
+}  // namespace plcgw::plc

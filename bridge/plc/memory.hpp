@@ -1,0 +1,66 @@
+// The devices of one simulated PLC, and which of them changed since somebody last asked.
+#pragma once
+
+#include "bridge/plc/model.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace plcgw::plc {
+
+// Where a device lives: an area of the model, and its first bit in that area's register image.
+struct place {
+    std::size_t area{};
+    std::size_t bit{};
+    bool operator==(const place&) const = default;
+};
+
+// Devices whose value changed, as a run of bits in an area's image. Of a bit device it is its bit, of a word device all 16.
+struct change {
+    std::size_t area{};
+    std::size_t first_bit{};
+    std::size_t count{};  // bits
+    bool operator==(const change&) const = default;
+};
+
+bool overlaps(const change& changed, place first, std::size_t bits);
+
+// Each area is one image of registers: 16 bit devices, one word device, or half a 32-bit device (low word first) in each.
+// So every view that MODBUS and the routes need is a run of bits in one image.
+class memory {
+public:
+    explicit memory(const plc::model& m);
+
+    const plc::model& model() const { return *model_; }
+
+    std::optional<place> find(device d) const;
+
+    // How many registers or bits there are from a place to the end of its area.
+    std::size_t bits_from(place p) const;
+
+    // The caller has checked that the run lies within bits_from(p).
+    bool bit(place p) const;
+    std::uint16_t word(place p) const;
+    void read(place p, std::span<std::uint16_t> words) const;
+    void set_bit(place p, bool value);
+    void set_word(place p, std::uint16_t value);
+
+    std::vector<change> take_changes();  // since the last call, in the order of areas and numbers
+    bool has_changes() const { return changed_; }
+
+private:
+    struct image {
+        std::vector<std::uint16_t> registers;
+        std::vector<std::uint16_t> dirty;  // bits that changed
+        std::size_t dirty_begin = 0;  // dirty registers lie in [begin, end)
+        std::size_t dirty_end = 0;
+    };
+
+    void store(image& of, std::size_t index, std::uint16_t value);
+
+    const plc::model* model_;
+    std::vector<image> images_;
+    bool changed_ = false;
+};
+
+}  // namespace plcgw::plc

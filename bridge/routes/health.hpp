@@ -1,0 +1,41 @@
+// Whether a station answers, and when a silent one is asked again. Health belongs to a station of a line.
+#pragma once
+
+#include "protocols/time.hpp"
+
+#include <cstdint>
+#include <string_view>
+
+namespace plcgw {
+
+enum class health : std::uint8_t {
+    healthy,
+    suspect,  // the last exchange failed: only that question is asked again, without retries
+    down,     // silent twice in a row: probed with a growing interval
+};
+
+constexpr std::string_view to_string(health h)
+{
+    switch (h) {
+    case health::healthy: return "healthy";
+    case health::suspect: return "suspect";
+    case health::down: return "down";
+    }
+    return "unknown";
+}
+
+class station_health {
+public:
+    health state() const { return state_; }
+    time_point probe_at() const { return probe_at_; }  // of a station that is down
+
+    void answered();                 // also "no": an exception is an answer
+    void failed(time_point now);
+
+private:
+    health state_ = health::healthy;
+    duration interval_{};
+    time_point probe_at_{};
+};
+
+}  // namespace plcgw

@@ -1,0 +1,81 @@
+// The routes of one MODBUS line: which question goes out next, and what its answer does to memory and quality.
+#pragma once
+
+#include "bridge/routes/route.hpp"
+#include "bridge/routes/schedule.hpp"
+#include "protocols/modbus/rtu_transaction.hpp"
+
+namespace plcgw {
+
+struct station {
+    std::string name;
+    modbus::unit_id unit{};
+    modbus::rtu_timing timing;
+};
+
+// For the log: a station or a route that changed its state.
+struct line_event {
+    enum class severity : std::uint8_t { info, warning } level{};
+    std::string text;
+};
+
+class modbus_line {
+public:
+    modbus_line(std::string name, std::vector<station> stations, duration longest_silence);
+
+    void add_route(route r, std::size_t station, duration period);
+    void start(time_point now) { schedule_.start(now); }
+
+    struct question {
+        schedule::turn turn;
+        modbus::unit_id unit{};
+        modbus::request request;
+        modbus::rtu_timing timing;
+        time_point asked_at{};
+    };
+
+    std::optional<question> next(time_point now);
+    time_point wake_at(time_point now) const { return schedule_.wake_at(now); }
+
+    // Each question ends in one of these. `wall` is when the answer came.
+    void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall);
+    void failed(const question& q, boost::system::error_code why, time_point now);
+    void interrupted(const question& q);  // the port went away: the station is not to blame
+
+    void port_lost(const std::string& why);  // values stay, qualities change
+
+    // Somebody drained this change of a memory. True when a route is due to write it to its station.
+    bool memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
+
+    // Routes whose words or quality changed since the last call, and those not said for the longest silence.
+    std::vector<sample> take_samples(time_point now);
+    void say_everything();  // the next take_samples() gives all routes: whoever got them is new
+    std::vector<line_event> take_events() { return std::exchange(events_, {}); }
+
+    const std::string& name() const { return name_; }
+    std::size_t routes_total() const { return routes_.size(); }
+    std::size_t routes_up() const;  // of good quality
+
+private:
+    struct row {
+        route content;
+        std::size_t station{};
+        bool answered = false;    // since the last sample
+        bool changed = true;      // since the last sample: the first one says "never read"
+        time_point said_at{};
+    };
+
+    void set_quality(row& of, quality state, const std::string& reason);
+    void station_down(std::size_t index, const std::string& reason);
+    void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
+    std::string label(const station& of) const;
+
+    std::string name_;
+    std::vector<station> stations_;
+    std::vector<row> routes_;  // numbered like the schedule's items
+    schedule schedule_;
+    duration longest_silence_;
+    std::vector<line_event> events_;
+};
+
+}  // namespace plcgw

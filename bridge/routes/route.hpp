@@ -1,0 +1,43 @@
+// A row of the routing table: registers or bits of a station, and the devices of a PLC that they belong to.
+#pragma once
+
+#include "bridge/plc/simulated_plc.hpp"
+#include "bridge/routes/quality.hpp"
+#include "bridge/sample.hpp"
+#include "protocols/modbus/response.hpp"
+
+namespace plcgw {
+
+enum class direction : std::uint8_t {
+    read,   // station -> PLC, every period
+    write,  // PLC -> station, when the PLC's devices change
+};
+
+struct route {
+    std::string name;
+    plc::simulated_plc* plc = nullptr;
+    plc::place at;              // the first device, in the PLC's memory
+    modbus::table table{};      // of the station
+    modbus::address first{};
+    std::uint16_t count{};      // registers or bits, at most what one request carries
+    direction way = direction::read;
+
+    quality state = quality::never_read;
+    wall_time source = wall_time::never;
+    std::vector<std::uint16_t> words;  // as the station said last: registers, or bits packed by 16
+    std::string reason;                // of a quality that is not good, for the log and the status page
+};
+
+// Bits of memory that a route covers: 16 for each register of the station, whatever the PLC's device is.
+std::size_t bits_of(const route& r);
+
+bool touches(const route& r, const plc::simulated_plc& plc, const plc::change& changed);
+
+modbus::request question_of(const route& r);          // a read, or a write of what the memory holds now
+
+// A good answer to that question: what was read goes into the memory, what was said either way into the route's words.
+void store(route& r, const modbus::request& question, const modbus::response& answer);
+
+sample sample_of(const route& r);
+
+}  // namespace plcgw

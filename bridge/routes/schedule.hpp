@@ -1,0 +1,62 @@
+// What a line does next: earliest deadline first, writes between the polls, and probes for silent stations that together
+// take at most a twentieth of the line. Knows no protocol: an item is a number.
+#pragma once
+
+#include "bridge/routes/health.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace plcgw {
+
+class schedule {
+public:
+    explicit schedule(std::size_t stations) : stations_(stations) {}
+
+    // Both return the item's number, counted from 0. A write has no period: it is due when ask() says so.
+    std::size_t add_poll(std::size_t station, duration period);
+    std::size_t add_write(std::size_t station);
+
+    void start(time_point now);  // spreads the first polls over their periods
+    void ask(std::size_t item) { items_[item].asked = true; }
+
+    struct turn {
+        std::size_t item{};
+        bool with_retries{};  // a suspect or silent station gets one attempt
+    };
+
+    std::optional<turn> next(time_point now);
+    time_point wake_at(time_point now) const;  // when next() may have an answer, if nothing is asked before
+
+    enum class outcome { answered, silent };
+    void finished(const turn& done, outcome how, duration took, time_point now);
+
+    health state_of(std::size_t station) const { return stations_[station].health.state(); }
+
+private:
+    struct item_state {
+        std::size_t station{};
+        duration period{};      // 0: a write
+        time_point due{};       // of a poll
+        bool asked = false;     // of a write
+    };
+    struct station_state {
+        station_health health;
+        std::size_t failed_item = 0;  // asked again before anything else while not healthy
+    };
+
+    time_point ready_at(std::size_t index, time_point now) const;
+    std::optional<std::size_t> first_probe(time_point now) const;
+    std::optional<std::size_t> first_write(time_point now) const;
+    std::optional<std::size_t> first_poll(time_point now) const;
+    void advance(item_state& of, time_point now);
+
+    std::vector<item_state> items_;
+    std::vector<station_state> stations_;
+    time_point probe_not_before_{};
+    std::size_t last_write_ = 0;    // writes take turns
+    bool wrote_last_ = false;
+};
+
+}  // namespace plcgw
