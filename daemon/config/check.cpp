@@ -1,0 +1,282 @@
+#include "daemon/config/check.hpp"
+
+#include "bridge/plc/simulated_plc.hpp"
+#include "daemon/config/reader.hpp"
+
+#include <boost/asio/ip/address.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <sstream>
+
+namespace plcgw::config {
+namespace {
+
+// The devices that a row of the configuration takes in a PLC's memory.
+struct occupied {
+    std::string plc;
+    plc::place at;
+    std::size_t bits;
+    std::string by;
+};
+
+std::string item(const char* list, std::size_t index, const char* key = nullptr)
+{
+    std::string pointer = std::string("/") + list + "/" + std::to_string(index);
+    return key == nullptr ? pointer : pointer + "/" + key;
+}
+
+class checker {
+public:
+    checker(const gateway_config& c, const located_json& file, const std::string& folder, mistakes& found)
+        : c_(c), file_(file), folder_(folder), found_(found)
+    {
+    }
+
+    void run()
+    {
+        unique_names("plcs", c_.plcs);
+        unique_names("lines", c_.lines);
+        unique_names("stations", c_.stations);
+        unique_names("routes", c_.routes);
+        for (std::size_t i = 0; i < c_.plcs.size(); ++i)
+            check_plc(i, c_.plcs[i]);
+        for (std::size_t i = 0; i < c_.lines.size(); ++i)
+            check_line(i, c_.lines[i]);
+        for (std::size_t i = 0; i < c_.stations.size(); ++i)
+            check_station(i, c_.stations[i]);
+        for (std::size_t i = 0; i < c_.routes.size(); ++i)
+            check_route(i, c_.routes[i]);
+        for (std::size_t i = 0; i < c_.modbus_tcp.size(); ++i)
+            check_server(i, c_.modbus_tcp[i]);
+        check_blocks();
+    }
+
+private:
+    void complain(const std::string& at, std::string what, mistake::weight how = mistake::weight::error)
+    {
+        found_.push_back({at, file_.line_of(at), std::move(what), how});
+    }
+
+    template <class Row>
+    void unique_names(const char* list, const std::vector<Row>& rows)
+    {
+        std::set<std::string> seen;
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (!rows[i].name.empty() && !seen.insert(rows[i].name).second)
+                complain(item(list, i, "name"), "\"" + rows[i].name + "\" stands twice: give each its own name");
+    }
+
+    // The row with this name. An absent name was already complained about.
+    template <class Row>
+    const Row* find(const std::vector<Row>& rows, const std::string& name, const char* what, const std::string& at)
+    {
+        std::vector<std::string> known;
+        for (const Row& each : rows) {
+            if (each.name == name)
+                return &each;
+            known.push_back(each.name);
+        }
+        if (name.empty())
+            return nullptr;
+        const std::string meant = nearest(name, known);
+        std::string cure = meant.empty() ? std::string("add it") : "did you mean \"" + meant + "\"?";
+        complain(at, "names the " + std::string(what) + " \"" + name + "\", which does not exist: " + cure);
+        return nullptr;
+    }
+
+    void check_plc(std::size_t i, const plc_config& p)
+    {
+        const plc::model* const model = plc::find_model(p.model);
+        if (model == nullptr) {
+            std::string known;
+            for (const plc::model* each : plc::all_models())
+                known.append(known.empty() ? "" : ", ").append(each->name);
+            complain(item("plcs", i, "model"), "is \"" + p.model + "\", expected one of: " + known);
+            return;
+        }
+        if (!p.program.empty() && !p.program_file.empty())
+            complain(item("plcs", i, "program_file"), "stands beside \"program\": keep one of them");
+        const auto program = program_text(p, folder_);
+        if (!program) {
+            complain(item("plcs", i, "program_file"), "names \"" + p.program_file + "\", which cannot be read");
+            return;
+        }
+        check_program(i, p, *model, *program);
+    }
+
+    void check_program(std::size_t i, const plc_config& p, const plc::model& model, const std::string& text)
+    {
+        plc::setup_program program = plc::parse_setup_program(text);
+        for (const plc::program_mistake& m : program.mistakes)
+            complain_program(i, p, m.line, m.text, mistake::weight::error);
+        const plc::simulated_plc powered_on(p.name, model, std::move(program));
+        if (const auto& fault = powered_on.fault())
+            complain_program(i, p, fault->line,
+                             fault->reason + "; the PLC runs without it and shows error 202 with detail " +
+                                 std::to_string(fault->detail) + " in D8402 and D8403",
+                             mistake::weight::warning);
+    }
+
+    void complain_program(std::size_t i, const plc_config& p, std::size_t line, const std::string& what,
+                          mistake::weight how)
+    {
+        if (!p.program_file.empty()) {
+            complain(item("plcs", i, "program_file"), p.program_file + " line " + std::to_string(line) + ": " + what,
+                     how);
+            return;
+        }
+        const std::string row = line == 0 ? "" : "/" + std::to_string(line - 1);
+        complain(item("plcs", i, "program") + row, what, how);
+    }
+
+    void check_line(std::size_t i, const line_config& l)
+    {
+        if (l.data_bits != 8)
+            complain(item("lines", i, "data_bits"), "is 7, but MODBUS RTU needs 8 data bits");
+        for (std::size_t other = 0; other < i; ++other)
+            if (!l.device.empty() && c_.lines[other].device == l.device)
+                complain(item("lines", i, "device"),
+                         "is already the device of line \"" + c_.lines[other].name + "\": a port belongs to one line");
+    }
+
+    void check_station(std::size_t i, const station_config& s)
+    {
+        find(c_.lines, s.line, "line", item("stations", i, "line"));
+        for (std::size_t other = 0; other < i; ++other)
+            if (c_.stations[other].line == s.line && c_.stations[other].unit == s.unit)
+                complain(item("stations", i, "unit"), "is already the unit id of station \"" +
+                                                          c_.stations[other].name + "\" on the same line");
+    }
+
+    void check_route(std::size_t i, const route_config& r)
+    {
+        const auto* const from = find(c_.stations, r.station, "station", item("routes", i, "station"));
+        if (from != nullptr && from->unit == 0 && r.way == direction::read)
+            complain(item("routes", i, "station"), "is unit 0, the broadcast: nobody answers, only write routes can use it");
+        check_request(i, r);
+        const std::size_t bits = modbus::is_bit_table(r.table) ? r.count : std::size_t{16} * r.count;
+        const auto at = check_devices(item("routes", i), r.plc, r.device, bits);
+        if (at && r.way == direction::read)
+            check_overlap(item("routes", i, "device"), {r.plc, *at, bits, r.name});
+    }
+
+    void check_request(std::size_t i, const route_config& r)
+    {
+        const bool bits = modbus::is_bit_table(r.table);
+        const bool writable = r.table == modbus::table::coils || r.table == modbus::table::holding_registers;
+        if (r.way == direction::write && !writable)
+            complain(item("routes", i, "table"), "is read-only in MODBUS: a write route needs coil or holding");
+        const unsigned most = r.way == direction::read ? (bits ? modbus::max_read_bits : modbus::max_read_registers)
+                                                       : (bits ? modbus::max_write_coils : modbus::max_write_registers);
+        if (r.count > most)
+            complain(item("routes", i, "count"), "is " + std::to_string(r.count) + ", but one MODBUS request carries " +
+                                                     std::to_string(most) + ": split the route");
+        if (r.first + r.count > 65'536)
+            complain(item("routes", i, "count"), "goes beyond address 65535");
+    }
+
+    std::optional<plc::place> check_devices(const std::string& row, const std::string& plc, const std::string& device,
+                                            std::size_t bits)
+    {
+        const plc_config* const owner = find(c_.plcs, plc, "PLC", row + "/plc");
+        const plc::model* const model = owner == nullptr ? nullptr : plc::find_model(owner->model);
+        if (model == nullptr || device.empty())
+            return std::nullopt;
+        const auto parsed = plc::parse_device(device);
+        if (!parsed) {
+            complain(row + "/device", "is \"" + device + "\", expected a device such as D100, M0 or X17 (octal)");
+            return std::nullopt;
+        }
+        const plc::memory memory(*model);
+        const auto at = memory.find(*parsed);
+        if (!at) {
+            complain(row + "/device", "is " + plc::to_string(*parsed) + ", which a " + std::string(model->name) +
+                                          " does not have");
+            return std::nullopt;
+        }
+        if (memory.bits_from(*at) < bits) {
+            const plc::area& area = model->areas[at->area];
+            const plc::device last{area.kind, area.first + area.count - 1};
+            complain(row + "/device", "is " + plc::to_string(*parsed) + ", but from there the count goes beyond " +
+                                          plc::to_string(last) + ", the last one");
+            return std::nullopt;
+        }
+        return at;
+    }
+
+    void check_overlap(const std::string& at, occupied taken)
+    {
+        for (const occupied& other : occupied_)
+            if (other.plc == taken.plc && other.at.area == taken.at.area && other.at.bit < taken.at.bit + taken.bits &&
+                taken.at.bit < other.at.bit + other.bits)
+                complain(at, "overlaps with the devices of route \"" + other.by + "\": each device has one source");
+        occupied_.push_back(std::move(taken));
+    }
+
+    void check_server(std::size_t i, const tcp_server_config& s)
+    {
+        boost::system::error_code wrong;
+        boost::asio::ip::make_address(s.listen, wrong);
+        if (wrong)
+            complain(item("modbus_tcp", i, "listen"), "is \"" + s.listen + "\", expected an IP address such as 0.0.0.0");
+        for (std::size_t other = 0; other < i; ++other)
+            if (c_.modbus_tcp[other].port == s.port && c_.modbus_tcp[other].listen == s.listen)
+                complain(item("modbus_tcp", i, "port"), "is already taken by server " + std::to_string(other));
+        if (!s.other_units.empty())
+            find(c_.plcs, s.other_units, "PLC", item("modbus_tcp", i, "other_units"));
+        if (s.units.empty() && s.other_units.empty())
+            complain(item("modbus_tcp", i), "leads to no PLC: give \"units\" or \"other_units\"");
+        std::set<unsigned> seen;
+        for (std::size_t u = 0; u < s.units.size(); ++u) {
+            const std::string at = item("modbus_tcp", i, "units") + "/" + std::to_string(u);
+            find(c_.plcs, s.units[u].plc, "PLC", at + "/plc");
+            if (!seen.insert(s.units[u].unit).second)
+                complain(at + "/unit", "stands twice: a unit id leads to one PLC");
+        }
+    }
+
+    void check_blocks()
+    {
+        for (std::size_t i = 0; i < c_.dds.blocks.size(); ++i) {
+            const block_config& b = c_.dds.blocks[i];
+            const auto device = plc::parse_device(b.device);
+            const bool bits = device && plc::is_bit_kind(device->kind);
+            check_devices("/dds/blocks/" + std::to_string(i), b.plc, b.device,
+                          bits ? b.count : std::size_t{16} * b.count);
+        }
+    }
+
+    const gateway_config& c_;
+    const located_json& file_;
+    const std::string& folder_;
+    mistakes& found_;
+    std::vector<occupied> occupied_;
+};
+
+}  // namespace
+
+std::optional<std::string> program_text(const plc_config& c, const std::string& folder)
+{
+    if (c.program_file.empty()) {
+        std::string text;
+        for (const std::string& line : c.program)
+            text += line + "\n";
+        return text;
+    }
+    std::ifstream file(std::filesystem::path(folder) / c.program_file);
+    std::ostringstream text;
+    if (!file || !(text << file.rdbuf()))
+        return std::nullopt;
+    return text.str();
+}
+
+void check(const gateway_config& c, const located_json& file, const std::string& folder, mistakes& found)
+{
+    checker(c, file, folder, found).run();
+}
+
+}  // namespace plcgw::config

@@ -1,0 +1,117 @@
+// The configuration file as structs. Defaults stand here and nowhere else; fields.hpp says how each is written in JSON.
+#pragma once
+
+#include "bridge/dds/settings.hpp"
+#include "bridge/routes/route.hpp"
+#include "protocols/serial_timing.hpp"
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plcgw {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+struct plc_config {
+    std::string name;
+    std::string model = "FX3U";
+    std::vector<std::string> program;  // lines of the setup program
+    std::string program_file;          // the same in a file, relative to the configuration's folder
+};
+
+// RS-485 direction by TIOCSRS485, where the driver has it.
+struct rs485_config {
+    bool enabled = false;
+    bool rts_on_send = true;
+    bool rts_after_send = false;
+    bool rx_during_tx = false;
+    milliseconds delay_before_send{0};
+    milliseconds delay_after_send{0};
+};
+
+enum class line_protocol : std::uint8_t { modbus_rtu };
+
+struct line_config {
+    std::string name;
+    std::string device;
+    line_protocol protocol = line_protocol::modbus_rtu;
+    unsigned baud_rate = 19200;
+    unsigned data_bits = 8;
+    parity check = parity::even;
+    unsigned stop_bits = 1;
+    rs485_config rs485;
+    milliseconds response_timeout{500};
+    unsigned retries = 1;
+    milliseconds turnaround_delay{100};
+    microseconds gap{0};        // 0 = 3.5 characters; 1.75 ms above 19200 bit/s
+    milliseconds silence{20};
+};
+
+struct station_config {
+    std::string name;
+    std::string line;
+    unsigned unit = 1;
+    std::optional<milliseconds> response_timeout;  // of the line, if absent
+    std::optional<unsigned> retries;
+};
+
+struct route_config {
+    std::string name;
+    std::string station;
+    modbus::table table = modbus::table::holding_registers;
+    unsigned first = 0;
+    unsigned count = 1;
+    std::string plc;
+    std::string device;
+    direction way = direction::read;
+    milliseconds period{1000};
+};
+
+struct unit_config {
+    unsigned unit = 1;
+    std::string plc;
+};
+
+struct tcp_server_config {
+    std::string listen = "127.0.0.1";
+    unsigned port = 502;
+    std::vector<unit_config> units;
+    std::string other_units;  // PLC for the unit ids that are not listed; empty: exception 0A
+    unsigned max_clients = 256;
+};
+
+struct block_config {
+    std::string plc;
+    std::string device;
+    unsigned count = 1;
+};
+
+struct dds_config {
+    dds_settings settings;
+    std::string member;  // empty: the host's name
+    milliseconds longest_silence{1000};
+    std::vector<block_config> blocks;
+};
+
+enum class log_level : std::uint8_t { debug, info, warning, error };
+
+struct log_config {
+    log_level level = log_level::info;
+};
+
+struct gateway_config {
+    std::string schema;  // for editors only
+    std::string gateway = "gateway";
+    std::vector<plc_config> plcs;
+    std::vector<line_config> lines;
+    std::vector<station_config> stations;
+    std::vector<route_config> routes;
+    std::vector<tcp_server_config> modbus_tcp;
+    dds_config dds;
+    log_config log;
+};
+
+}  // namespace plcgw

@@ -1,0 +1,171 @@
+// One place that says how each struct of config.hpp is written in JSON: key, rule, description. A visitor walks it: the
+// reader fills the struct, the schema writer describes it, so that both always agree with the structs.
+#pragma once
+
+#include "daemon/config/config.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+namespace plcgw::config {
+
+struct range {
+    std::int64_t least;
+    std::int64_t most;
+};
+
+// A name is a DDS key and stands in logs: 1 to `most` bytes. Any other text may be empty.
+struct text {
+    std::size_t least = 0;
+    std::size_t most = 255;
+};
+
+inline constexpr text name_rule{1, 64};
+
+template <class Enum>
+struct choice {
+    std::string_view name;
+    Enum value;
+};
+
+inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu}};
+inline constexpr choice<parity> parities[] = {{"none", parity::none}, {"odd", parity::odd}, {"even", parity::even}};
+inline constexpr choice<direction> directions[] = {{"read", direction::read}, {"write", direction::write}};
+inline constexpr choice<modbus::table> tables[] = {{"coil", modbus::table::coils},
+                                                   {"discrete", modbus::table::discrete_inputs},
+                                                   {"input", modbus::table::input_registers},
+                                                   {"holding", modbus::table::holding_registers}};
+inline constexpr choice<log_level> log_levels[] = {{"debug", log_level::debug},
+                                                   {"info", log_level::info},
+                                                   {"warning", log_level::warning},
+                                                   {"error", log_level::error}};
+
+template <class Visitor>
+void describe(Visitor& v, plc_config& c)
+{
+    v.required("name", c.name, "Name of the simulated PLC", name_rule);
+    v.optional("model", c.model, "PLC family: FX3U or FX3UC", name_rule);
+    v.optional("program", c.program, "Setup program, one instruction per string: LD M8411, MOV H5002 D8470, ...",
+               text{});
+    v.optional("program_file", c.program_file,
+               "File with the setup program instead; relative to the folder of this configuration", text{});
+}
+
+template <class Visitor>
+void describe(Visitor& v, rs485_config& c)
+{
+    v.optional("enabled", c.enabled, "Let the driver switch the direction (TIOCSRS485)");
+    v.optional("rts_on_send", c.rts_on_send, "Level of RTS while sending");
+    v.optional("rts_after_send", c.rts_after_send, "Level of RTS while receiving");
+    v.optional("rx_during_tx", c.rx_during_tx, "Hear what we send ourselves");
+    v.optional("delay_before_send_ms", c.delay_before_send, "Milliseconds from RTS to the first bit", range{0, 1000});
+    v.optional("delay_after_send_ms", c.delay_after_send, "Milliseconds from the last bit to RTS", range{0, 1000});
+}
+
+template <class Visitor>
+void describe(Visitor& v, line_config& c)
+{
+    v.required("name", c.name, "Name of the line", name_rule);
+    v.required("device", c.device, "Serial port, best a stable name such as /dev/serial/by-id/...", text{1});
+    v.optional("protocol", c.protocol, "What is spoken on the line; the gateway is the client", line_protocols);
+    v.optional("baud_rate", c.baud_rate, "Bits per second", range{300, 4'000'000});
+    v.optional("data_bits", c.data_bits, "Data bits; RTU needs 8", range{7, 8});
+    v.optional("parity", c.check, "Parity bit", parities);
+    v.optional("stop_bits", c.stop_bits, "Stop bits", range{1, 2});
+    v.optional("rs485", c.rs485, "RS-485 direction control by the driver");
+    v.optional("response_timeout_ms", c.response_timeout,
+               "Milliseconds from the end of a request to the first byte of its answer", range{1, 60'000});
+    v.optional("retries", c.retries, "Repetitions of a request that got no good answer", range{0, 20});
+    v.optional("turnaround_delay_ms", c.turnaround_delay, "Milliseconds of silence after a broadcast",
+               range{0, 32'767});
+    v.optional("gap_us", c.gap, "Microseconds of silence before a request; 0 = 3.5 characters, never less",
+               range{0, 16'382'000});
+    v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged answer", range{1, 1000});
+}
+
+template <class Visitor>
+void describe(Visitor& v, station_config& c)
+{
+    v.required("name", c.name, "Name of the device", name_rule);
+    v.required("line", c.line, "Name of its line", name_rule);
+    v.required("unit", c.unit, "MODBUS unit id; 0 = broadcast, for write routes only", range{0, 247});
+    v.optional("response_timeout_ms", c.response_timeout, "As at the line, for this station", range{1, 60'000});
+    v.optional("retries", c.retries, "As at the line, for this station", range{0, 20});
+}
+
+template <class Visitor>
+void describe(Visitor& v, route_config& c)
+{
+    v.required("name", c.name, "Name of the route: key of its DDS instance", name_rule);
+    v.required("station", c.station, "Name of the station", name_rule);
+    v.required("table", c.table, "Table of the station's registers or bits", tables);
+    v.required("first", c.first, "Protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
+    v.optional("count", c.count, "Registers or bits", range{1, 2000});
+    v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
+    v.required("device", c.device, "First device in its memory, for example D100, M0, X17 (octal)", text{2, 16});
+    v.optional("direction", c.way, "read: station to PLC, periodically; write: PLC to station, on change", directions);
+    v.optional("period_ms", c.period, "Milliseconds from one read to the next", range{10, 86'400'000});
+}
+
+template <class Visitor>
+void describe(Visitor& v, unit_config& c)
+{
+    v.required("unit", c.unit, "MODBUS unit id", range{0, 255});
+    v.required("plc", c.plc, "Name of the simulated PLC that answers", name_rule);
+}
+
+template <class Visitor>
+void describe(Visitor& v, tcp_server_config& c)
+{
+    v.optional("listen", c.listen, "Address to listen on; 0.0.0.0 or :: for every interface", text{1});
+    v.optional("port", c.port, "TCP port", range{1, 65'535});
+    v.optional("units", c.units, "Which unit id leads to which PLC");
+    v.optional("other_units", c.other_units, "PLC for all other unit ids; empty: they get exception 0A", text{0, 64});
+    v.optional("max_clients", c.max_clients, "Connections at a time", range{1, 10'000});
+}
+
+template <class Visitor>
+void describe(Visitor& v, block_config& c)
+{
+    v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
+    v.required("device", c.device, "First device", text{2, 16});
+    v.optional("count", c.count, "Registers, or bits of a bit device", range{1, 1024});
+}
+
+template <class Visitor>
+void describe(Visitor& v, dds_config& c)
+{
+    v.optional("enabled", c.settings.enabled, "Publish registers as DDS topics");
+    v.optional("domain", c.settings.domain, "DDS domain id", range{0, 230});
+    v.optional("interface", c.settings.interface, "Network interface; lo = this host only, empty = the first suitable",
+               text{0, 64});
+    v.optional("peers", c.settings.peers, "Addresses of other hosts where multicast does not reach", text{1});
+    v.optional("partition", c.settings.partition, "DDS partition, for example a plant", text{});
+    v.optional("member", c.member, "This process among those of the same gateway; empty: the host's name", text{0, 64});
+    v.optional("longest_silence_ms", c.longest_silence, "Unchanged registers are published again after this time",
+               range{10, 3'600'000});
+    v.optional("blocks", c.blocks, "Devices of a PLC that are published as well, whoever writes them");
+}
+
+template <class Visitor>
+void describe(Visitor& v, log_config& c)
+{
+    v.optional("level", c.level, "Least important message that is logged", log_levels);
+}
+
+template <class Visitor>
+void describe(Visitor& v, gateway_config& c)
+{
+    v.optional("$schema", c.schema, "Path of the JSON Schema, for editors", text{});
+    v.optional("gateway", c.gateway, "Name of this gateway in DDS", name_rule);
+    v.optional("plcs", c.plcs, "Simulated PLCs");
+    v.optional("lines", c.lines, "Serial lines");
+    v.optional("stations", c.stations, "Devices on the lines");
+    v.optional("routes", c.routes, "Routing table: registers of stations to devices of PLCs");
+    v.optional("modbus_tcp", c.modbus_tcp, "MODBUS TCP servers");
+    v.optional("dds", c.dds, "DDS");
+    v.optional("log", c.log, "Logging");
+}
+
+}  // namespace plcgw::config

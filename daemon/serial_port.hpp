@@ -1,0 +1,17 @@
+// Opens a serial port with the settings of a line. Everything that Asio's serial_port does not know: any baud rate,
+// RS-485 direction, exclusive use.
+#pragma once
+
+#include "daemon/config/config.hpp"
+
+#include <boost/system/result.hpp>
+
+#include <string>
+
+namespace plcgw {
+
+// The open port's descriptor, or why it could not be opened. On success `warning` may say what the driver could not do. A
+// pty keeps no parity and knows no RS-485.
+boost::system::result<int> open_serial_port(const line_config& line, std::string& warning);
+
+}  // namespace plcgw
