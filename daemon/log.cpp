@@ -4,6 +4,9 @@
 #include <spdlog/sinks/systemd_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cstdlib>
 #include <memory>
 
@@ -21,12 +24,22 @@ spdlog::level::level_enum spdlog_level(log_level level)
     return spdlog::level::info;
 }
 
+// systemd.exec(5): JOURNAL_STREAM names the device and inode of the journal's socket. It is inherited by shells too, so
+// only a stderr that is that socket means that systemd started us.
+bool stderr_is_journal()
+{
+    const char* const stream = std::getenv("JOURNAL_STREAM");
+    struct stat opened{};
+    return stream != nullptr && ::fstat(STDERR_FILENO, &opened) == 0 &&
+           stream == fmt::format("{}:{}", opened.st_dev, opened.st_ino);
+}
+
 }  // namespace
 
 void start(log_level least)
 {
     std::shared_ptr<spdlog::logger> logger;
-    if (std::getenv("JOURNAL_STREAM") != nullptr) {  // systemd.exec(5): our stderr is the journal
+    if (stderr_is_journal()) {
         logger = std::make_shared<spdlog::logger>("plc-gateway", std::make_shared<spdlog::sinks::systemd_sink_mt>());
     }
     else {

@@ -5,6 +5,8 @@
 namespace plcgw {
 namespace {
 
+constexpr int periods_until_stale = 3;
+
 std::string exception_text(modbus::exception_code code)
 {
     constexpr std::string_view digits = "0123456789ABCDEF";
@@ -31,6 +33,7 @@ void modbus_line::add_route(route r, std::size_t station, duration period)
     row& added = routes_.emplace_back();
     added.content = std::move(r);
     added.station = station;
+    added.period = period;
 }
 
 std::optional<modbus_line::question> modbus_line::next(time_point now)
@@ -62,6 +65,7 @@ void modbus_line::answered(const question& q, const modbus::response& answer, ti
     const std::vector<std::uint16_t> words_before = of.content.words;
     store(of.content, q.request, answer);
     of.content.source = wall;
+    of.good_at = now;
     of.changed = of.changed || of.content.words != words_before;
     set_quality(of, quality::good, {});
 }
@@ -70,7 +74,8 @@ void modbus_line::failed(const question& q, boost::system::error_code why, time_
 {
     row& of = routes_[q.turn.item];
     const health before = schedule_.state_of(of.station);
-    schedule_.finished(q.turn, schedule::outcome::silent, now - q.asked_at, now);
+    const bool asked = why != errc::line_not_quiet;
+    schedule_.finished(q.turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now);
     set_quality(of, quality::comm_error, why.message());
     if (before != health::down && schedule_.state_of(of.station) == health::down)
         station_down(of.station, why.message());
@@ -104,6 +109,7 @@ std::vector<sample> modbus_line::take_samples(time_point now)
 {
     std::vector<sample> samples;
     for (row& each : routes_) {
+        age(each, now);
         const bool confirmed = each.answered && now - each.said_at >= longest_silence_;
         if (!each.changed && !confirmed)
             continue;
@@ -112,6 +118,14 @@ std::vector<sample> modbus_line::take_samples(time_point now)
         samples.push_back(sample_of(each.content));
     }
     return samples;
+}
+
+// A value that is not renewed although its station answers, because the line is overloaded.
+void modbus_line::age(row& of, time_point now)
+{
+    const bool polled = of.content.way == direction::read;
+    if (polled && of.content.state == quality::good && now - of.good_at > periods_until_stale * of.period)
+        set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods");
 }
 
 void modbus_line::say_everything()

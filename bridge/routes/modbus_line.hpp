@@ -60,12 +60,15 @@ private:
     struct row {
         route content;
         std::size_t station{};
+        duration period{};
+        time_point good_at{};     // last good answer
         bool answered = false;    // since the last sample
         bool changed = true;      // since the last sample: the first one says "never read"
         time_point said_at{};
     };
 
     void set_quality(row& of, quality state, const std::string& reason);
+    void age(row& of, time_point now);
     void station_down(std::size_t index, const std::string& reason);
     void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
     std::string label(const station& of) const;

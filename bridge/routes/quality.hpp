@@ -9,7 +9,7 @@ namespace plcgw {
 enum class quality : std::uint8_t {
     never_read,    // no answer since start: the value is the memory's initial one
     good,          // read within the route's period
-    stale,         // older than the route allows, for example because the line is overloaded
+    stale,         // not renewed for three periods, for example because the line is overloaded
     comm_error,    // the station does not answer or the port is absent: the value is the last known one
     device_error,  // the station answered with an exception
 };

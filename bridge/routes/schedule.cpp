@@ -127,13 +127,13 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
     if (how == outcome::answered) {
         of.health.answered();
     }
-    else {
+    else if (how == outcome::silent) {
         if (of.health.state() == health::healthy)
             of.failed_item = done.item;
         of.health.failed(now);
-        if (each.period == duration{})
-            each.asked = true;  // a write that nobody took is still wanted
     }
+    if (how != outcome::answered && each.period == duration{})
+        each.asked = true;  // a write that nobody took is still wanted
     if (was_probe)
         probe_not_before_ = now + (probe_share - 1) * took;
     if (each.period != duration{})

@@ -29,7 +29,11 @@ public:
     std::optional<turn> next(time_point now);
     time_point wake_at(time_point now) const;  // when next() may have an answer, if nothing is asked before
 
-    enum class outcome { answered, silent };
+    enum class outcome {
+        answered,
+        silent,
+        not_asked,  // the line was not free: the station is not to blame
+    };
     void finished(const turn& done, outcome how, duration took, time_point now);
 
     health state_of(std::size_t station) const { return stations_[station].health.state(); }
