@@ -33,7 +33,8 @@ std::vector<station> stations_of(const gateway_config& c, const line_config& lin
     std::vector<station> stations;
     for (const station_config& each : c.stations)
         if (each.line == line.name)
-            stations.push_back({each.name, modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, timing_of(line, each)});
+            stations.push_back(
+                {each.name, modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, timing_of(line, each)});
     return stations;
 }
 

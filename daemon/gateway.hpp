@@ -46,7 +46,7 @@ private:
     void publish_everything();
     void publish_blocks();
     bool open_dds();
-    asio::awaitable<void> keep_dds();       // publishes the status, and opens DDS again where it failed
+    asio::awaitable<void> keep_dds();  // publishes the status, and opens DDS again where it failed
     asio::awaitable<void> keep_watchdog(std::chrono::microseconds period);
     void show_status();
 

@@ -4,11 +4,10 @@
 #include <spdlog/sinks/systemd_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <memory>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace plcgw::log {
 namespace {
@@ -29,7 +28,7 @@ spdlog::level::level_enum spdlog_level(log_level level)
 bool stderr_is_journal()
 {
     const char* const stream = std::getenv("JOURNAL_STREAM");
-    struct stat opened{};
+    struct stat opened {};
     return stream != nullptr && ::fstat(STDERR_FILENO, &opened) == 0 &&
            stream == fmt::format("{}:{}", opened.st_dev, opened.st_ino);
 }
@@ -43,8 +42,8 @@ void start(log_level least)
         logger = std::make_shared<spdlog::logger>("plc-gateway", std::make_shared<spdlog::sinks::systemd_sink_mt>());
     }
     else {
-        logger = std::make_shared<spdlog::logger>("plc-gateway",
-                                                  std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+        logger =
+            std::make_shared<spdlog::logger>("plc-gateway", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
         logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %^%-7l%$ %v");
     }
     logger->set_level(spdlog_level(least));

@@ -14,6 +14,7 @@
 namespace {
 
 constexpr int usage_error = 2;
+constexpr int cannot_run = 3;  // for example out of memory or descriptors: systemd tries again
 
 // The options of `watch`, from the command line or from the configuration of the gateway that is watched.
 struct watch_arguments {
@@ -98,6 +99,6 @@ int main(int argc, char** argv)
     }
     catch (const std::exception& broken) {
         std::fprintf(stderr, "plc-gateway: %s\n", broken.what());
-        return 1;
+        return cannot_run;
     }
 }

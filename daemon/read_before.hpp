@@ -18,10 +18,7 @@ namespace asio = boost::asio;
 
 inline constexpr auto no_throw = asio::as_tuple(asio::use_awaitable);  // failures are values
 
-inline time_point now()
-{
-    return std::chrono::time_point_cast<duration>(std::chrono::steady_clock::now());
-}
+inline time_point now() { return std::chrono::time_point_cast<duration>(std::chrono::steady_clock::now()); }
 
 inline wall_time wall_now()
 {
@@ -71,9 +68,8 @@ private:
 
 // Bytes read before the deadline; asio::error::timed_out when it came first. The descriptor is non-blocking.
 template <class Stream>
-asio::awaitable<boost::system::result<std::size_t>> read_before(time_point deadline, Stream& stream,
-                                                                deadline_guard<Stream>& guard,
-                                                                asio::mutable_buffer into)
+asio::awaitable<boost::system::result<std::size_t>>
+read_before(time_point deadline, Stream& stream, deadline_guard<Stream>& guard, asio::mutable_buffer into)
 {
     guard.arm(deadline);
     const auto [ec, size] = co_await stream.async_read_some(into, no_throw);

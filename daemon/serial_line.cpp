@@ -19,8 +19,7 @@ character_format format_of(const line_config& c) { return {c.baud_rate, c.data_b
 
 }  // namespace
 
-serial_line::serial_line(asio::io_context& loop, line_config config, modbus_line& routes,
-                         std::function<void()> settle)
+serial_line::serial_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle)
     : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), port_(loop), guard_(port_),
       reopen_(loop), gap_(std::max<duration>(config_.gap, frame_gap(format_of(config_))))
 {
@@ -73,7 +72,10 @@ error_code serial_line::open()
     absent_ = false;
     line_free_from_ = now() + gap_;
     log::info("line {}: {} is open, {} {}{}{}", config_.name, config_.device, config_.baud_rate, config_.data_bits,
-              config_.check == parity::none ? 'N' : config_.check == parity::odd ? 'O' : 'E', config_.stop_bits);
+              config_.check == parity::none  ? 'N'
+              : config_.check == parity::odd ? 'O'
+                                             : 'E',
+              config_.stop_bits);
     if (!warning.empty())
         log::warning("line {}: {}: {}", config_.name, config_.device, warning);
     return {};

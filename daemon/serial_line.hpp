@@ -38,8 +38,8 @@ private:
     std::array<std::uint8_t, 1024> received_{};
     duration gap_;
     time_point line_free_from_{};
-    bool idle_ = false;        // waiting until something is due
-    bool absent_ = false;      // and said so
+    bool idle_ = false;    // waiting until something is due
+    bool absent_ = false;  // and said so
 };
 
 }  // namespace plcgw

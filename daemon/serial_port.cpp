@@ -4,13 +4,12 @@
 // included here.
 #include <asm/ioctls.h>
 #include <asm/termbits.h>
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <linux/serial.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
 
 namespace plcgw {
 namespace {

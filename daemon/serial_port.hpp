@@ -10,8 +10,8 @@
 
 namespace plcgw {
 
-// The open port's descriptor, or why it could not be opened. On success `warning` may say what the driver could not do. A
-// pty keeps no parity and knows no RS-485.
+// The open port's descriptor, or why it could not be opened. On success `warning` may say what the driver could not do.
+// A pty keeps no parity and knows no RS-485.
 boost::system::result<int> open_serial_port(const line_config& line, std::string& warning);
 
 }  // namespace plcgw

@@ -167,16 +167,11 @@ private:
     static std::string_view attribute(line_style style)
     {
         switch (style) {
-        case line_style::plain:
-            return "0";
-        case line_style::heading:
-            return "1";
-        case line_style::warning:
-            return "33";
-        case line_style::error:
-            return "31;1";
-        case line_style::old:
-            return "2";
+        case line_style::plain: return "0";
+        case line_style::heading: return "1";
+        case line_style::warning: return "33";
+        case line_style::error: return "31;1";
+        case line_style::old: return "2";
         }
         return "0";
     }

@@ -1,5 +1,5 @@
-// Why bytes were dropped or a request went without an answer. A device that answers "no" (a MODBUS exception, a MEWTOCOL
-// error code) has answered: that is not an errc.
+// Why bytes were dropped or a request went without an answer. A device that answers "no" (a MODBUS exception, a
+// MEWTOCOL error code) has answered: that is not an errc.
 #pragma once
 
 #include <boost/system/result.hpp>
@@ -20,10 +20,7 @@ enum class errc {
 
 const boost::system::error_category& protocol_category() noexcept;
 
-inline boost::system::error_code make_error_code(errc e) noexcept
-{
-    return {static_cast<int>(e), protocol_category()};
-}
+inline boost::system::error_code make_error_code(errc e) noexcept { return {static_cast<int>(e), protocol_category()}; }
 
 template <class T>
 using result = boost::system::result<T>;
@@ -31,4 +28,5 @@ using result = boost::system::result<T>;
 }  // namespace plcgw
 
 template <>
-struct boost::system::is_error_code_enum<plcgw::errc> : std::true_type {};
+struct boost::system::is_error_code_enum<plcgw::errc> : std::true_type {
+};

@@ -14,7 +14,7 @@ struct character_format {
     unsigned baud_rate = 19200;  // bits per second
     unsigned data_bits = 8;      // 5 to 8
     parity check = parity::even;
-    unsigned stop_bits = 1;      // 1 or 2
+    unsigned stop_bits = 1;  // 1 or 2
 };
 
 // Bits of one character on the wire: start, data, parity, stop.

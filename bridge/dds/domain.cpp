@@ -39,10 +39,7 @@ dds_result<std::shared_ptr<dds_domain>> dds_domain::open(const dds_settings& set
     return domain;
 }
 
-dds_domain::~dds_domain()
-{
-    dds_delete(entity_);
-}
+dds_domain::~dds_domain() { dds_delete(entity_); }
 
 dds_result<std::unique_ptr<dds_participant>> dds_participant::open(const dds_settings& settings)
 {
@@ -56,15 +53,9 @@ dds_result<std::unique_ptr<dds_participant>> dds_participant::open(const dds_set
     return std::make_unique<dds_participant>(*domain, entity);
 }
 
-dds_participant::~dds_participant()
-{
-    dds_delete(entity_);
-}
+dds_participant::~dds_participant() { dds_delete(entity_); }
 
-void qos_deleter::operator()(dds_qos* qos) const
-{
-    dds_delete_qos(qos);
-}
+void qos_deleter::operator()(dds_qos* qos) const { dds_delete_qos(qos); }
 
 qos_ptr partition_qos(const dds_settings& settings)
 {

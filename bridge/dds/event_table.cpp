@@ -30,15 +30,11 @@ std::string clipped(const std::string& text, std::size_t width)
 line_style style_of(quality q)
 {
     switch (q) {
-    case quality::good:
-        return line_style::plain;
-    case quality::stale:
-        return line_style::warning;
+    case quality::good: return line_style::plain;
+    case quality::stale: return line_style::warning;
     case quality::comm_error:
-    case quality::device_error:
-        return line_style::error;
-    case quality::never_read:
-        break;
+    case quality::device_error: return line_style::error;
+    case quality::never_read: break;
     }
     return line_style::old;
 }

@@ -115,10 +115,7 @@ std::string status_text(const received_status& s)
     return fmt::format("{}, routes {}/{} up", to_string(s.status.role), s.status.routes_up, s.status.routes_total);
 }
 
-std::string_view to_string(gone_reason reason)
-{
-    return reason == gone_reason::disposed ? "disposed" : "writer lost";
-}
+std::string_view to_string(gone_reason reason) { return reason == gone_reason::disposed ? "disposed" : "writer lost"; }
 
 std::string line_of(const dds_event& event)
 {

@@ -23,12 +23,9 @@ enum class gateway_role : std::uint8_t { solo, active, standby };
 constexpr std::string_view to_string(gateway_role role)
 {
     switch (role) {
-    case gateway_role::solo:
-        return "solo";
-    case gateway_role::active:
-        return "active";
-    case gateway_role::standby:
-        return "standby";
+    case gateway_role::solo: return "solo";
+    case gateway_role::active: return "active";
+    case gateway_role::standby: return "standby";
     }
     return "unknown role";
 }

@@ -143,14 +143,8 @@ void dds_publisher::dispose(const sample& key)
     state_->count(written);
 }
 
-std::uint64_t dds_publisher::published() const
-{
-    return state_->published;
-}
-std::uint64_t dds_publisher::drops() const
-{
-    return state_->drops;
-}
+std::uint64_t dds_publisher::published() const { return state_->published; }
+std::uint64_t dds_publisher::drops() const { return state_->drops; }
 std::string dds_publisher::last_error() const
 {
     return state_->last_error == DDS_RETCODE_OK ? "" : dds_strretcode(state_->last_error);

@@ -24,15 +24,9 @@ void wake(int descriptor)
     [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
 }
 
-void on_data(dds_entity_t, void* descriptor)
-{
-    wake(*static_cast<int*>(descriptor));
-}
+void on_data(dds_entity_t, void* descriptor) { wake(*static_cast<int*>(descriptor)); }
 
-std::string text(std::span<const char> in)
-{
-    return std::string(read_string(in));
-}
+std::string text(std::span<const char> in) { return std::string(read_string(in)); }
 
 dds_event received(const plcgw_v1_RegisterBlock& in)
 {
@@ -149,10 +143,7 @@ dds_subscriber::dds_subscriber(dds_subscriber&&) noexcept = default;
 dds_subscriber& dds_subscriber::operator=(dds_subscriber&&) noexcept = default;
 dds_subscriber::~dds_subscriber() = default;
 
-int dds_subscriber::descriptor() const
-{
-    return state_->descriptor;
-}
+int dds_subscriber::descriptor() const { return state_->descriptor; }
 
 std::vector<dds_event> dds_subscriber::take(std::size_t most)
 {

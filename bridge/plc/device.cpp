@@ -53,8 +53,7 @@ std::optional<device> parse_device(std::string_view text)
     if (known == names.end() || digits.empty())
         return std::nullopt;
     device parsed{known->kind, 0};
-    const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), parsed.number, known->base);
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), parsed.number, known->base);
     if (error != std::errc{} || end != digits.data() + digits.size())
         return std::nullopt;
     return parsed;

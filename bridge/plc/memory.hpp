@@ -15,7 +15,8 @@ struct place {
     bool operator==(const place&) const = default;
 };
 
-// Devices whose value changed, as a run of bits in an area's image. Of a bit device it is its bit, of a word device all 16.
+// Devices whose value changed, as a run of bits in an area's image. Of a bit device it is its bit, of a word device
+// all 16.
 struct change {
     std::size_t area{};
     std::size_t first_bit{};
@@ -25,8 +26,8 @@ struct change {
 
 bool overlaps(const change& changed, place first, std::size_t bits);
 
-// Each area is one image of registers: 16 bit devices, one word device, or half a 32-bit device (low word first) in each.
-// So every view that MODBUS and the routes need is a run of bits in one image.
+// Each area is one image of registers: 16 bit devices, one word device, or half a 32-bit device (low word first) in
+// each. So every view that MODBUS and the routes need is a run of bits in one image.
 class memory {
 public:
     explicit memory(const plc::model& m);
@@ -52,7 +53,7 @@ private:
     struct image {
         std::vector<std::uint16_t> registers;
         std::vector<std::uint16_t> dirty;  // bits that changed
-        std::size_t dirty_begin = 0;  // dirty registers lie in [begin, end)
+        std::size_t dirty_begin = 0;       // dirty registers lie in [begin, end)
         std::size_t dirty_end = 0;
     };
 

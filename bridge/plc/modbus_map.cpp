@@ -15,9 +15,9 @@ struct allocation_set {
 };
 
 constexpr device_kind kinds_by_code[] = {
-    device_kind::m,  device_kind::s, device_kind::ts, device_kind::cs, device_kind::y,  device_kind::x,
-    device_kind::m,  device_kind::s, device_kind::ts, device_kind::cs, device_kind::y,  device_kind::x,
-    device_kind::d,  device_kind::r, device_kind::tn, device_kind::cn,
+    device_kind::m, device_kind::s, device_kind::ts, device_kind::cs, device_kind::y, device_kind::x,
+    device_kind::m, device_kind::s, device_kind::ts, device_kind::cs, device_kind::y, device_kind::x,
+    device_kind::d, device_kind::r, device_kind::tn, device_kind::cn,
 };
 constexpr std::uint16_t first_register_code = 6;
 constexpr std::uint16_t code_d = 0xC;

@@ -32,8 +32,7 @@ void simulated_plc::power_on()
         }
     }
     for (const auto& [number, value] : program_.registers)
-        set_special(device_kind::d, number,
-                    number >= allocation_first ? sets[number - allocation_first] : value);
+        set_special(device_kind::d, number, number >= allocation_first ? sets[number - allocation_first] : value);
 
     set_special(device_kind::m, 8000, 1);  // RUN monitor, normally on
     if (program_.fault) {

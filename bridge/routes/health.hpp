@@ -29,7 +29,7 @@ public:
     health state() const { return state_; }
     time_point probe_at() const { return probe_at_; }  // of a station that is down
 
-    void answered();                 // also "no": an exception is an answer
+    void answered();  // also "no": an exception is an answer
     void failed(time_point now);
 
 private:

@@ -136,17 +136,16 @@ void modbus_line::say_everything()
 
 std::size_t modbus_line::routes_up() const
 {
-    return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(), [](const row& each) {
-        return each.content.state == quality::good;
-    }));
+    return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(),
+                                                  [](const row& each) { return each.content.state == quality::good; }));
 }
 
 void modbus_line::set_quality(row& of, quality state, const std::string& reason)
 {
     route& r = of.content;
     if (state == quality::device_error && (r.state != state || r.reason != reason))
-        note(line_event::severity::warning, "line " + name_ + ", route " + r.name + ": " +
-                                                label(stations_[of.station]) + " refuses: " + reason);
+        note(line_event::severity::warning,
+             "line " + name_ + ", route " + r.name + ": " + label(stations_[of.station]) + " refuses: " + reason);
     if (r.state == quality::device_error && state == quality::good)
         note(line_event::severity::info, "line " + name_ + ", route " + r.name + ": accepted again");
     of.changed = of.changed || r.state != state;

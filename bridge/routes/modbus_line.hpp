@@ -61,9 +61,9 @@ private:
         route content;
         std::size_t station{};
         duration period{};
-        time_point good_at{};     // last good answer
-        bool answered = false;    // since the last sample
-        bool changed = true;      // since the last sample: the first one says "never read"
+        time_point good_at{};   // last good answer
+        bool answered = false;  // since the last sample
+        bool changed = true;    // since the last sample: the first one says "never read"
         time_point said_at{};
     };
 

@@ -16,10 +16,10 @@ enum class direction : std::uint8_t {
 struct route {
     std::string name;
     plc::simulated_plc* plc = nullptr;
-    plc::place at;              // the first device, in the PLC's memory
-    modbus::table table{};      // of the station
+    plc::place at;          // the first device, in the PLC's memory
+    modbus::table table{};  // of the station
     modbus::address first{};
-    std::uint16_t count{};      // registers or bits, at most what one request carries
+    std::uint16_t count{};  // registers or bits, at most what one request carries
     direction way = direction::read;
 
     quality state = quality::never_read;
@@ -33,7 +33,7 @@ std::size_t bits_of(const route& r);
 
 bool touches(const route& r, const plc::simulated_plc& plc, const plc::change& changed);
 
-modbus::request question_of(const route& r);          // a read, or a write of what the memory holds now
+modbus::request question_of(const route& r);  // a read, or a write of what the memory holds now
 
 // A good answer to that question: what was read goes into the memory, what was said either way into the route's words.
 void store(route& r, const modbus::request& question, const modbus::response& answer);

@@ -140,8 +140,8 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
         advance(each, now);
 }
 
-// The next due time keeps its phase. What was missed is skipped, not caught up: a line that stood still for an hour does
-// not ask everything 3600 times.
+// The next due time keeps its phase. What was missed is skipped, not caught up: a line that stood still for an hour
+// does not ask everything 3600 times.
 void schedule::advance(item_state& of, time_point now)
 {
     of.due += of.period;

@@ -1,5 +1,5 @@
-// What a line does next: earliest deadline first, writes between the polls, and probes for silent stations that together
-// take at most a twentieth of the line. Knows no protocol: an item is a number.
+// What a line does next: earliest deadline first, writes between the polls, and probes for silent stations that
+// together take at most a twentieth of the line. Knows no protocol: an item is a number.
 #pragma once
 
 #include "bridge/routes/health.hpp"
@@ -41,9 +41,9 @@ public:
 private:
     struct item_state {
         std::size_t station{};
-        duration period{};      // 0: a write
-        time_point due{};       // of a poll
-        bool asked = false;     // of a write
+        duration period{};   // 0: a write
+        time_point due{};    // of a poll
+        bool asked = false;  // of a write
     };
     struct station_state {
         station_health health;
@@ -59,7 +59,7 @@ private:
     std::vector<item_state> items_;
     std::vector<station_state> stations_;
     time_point probe_not_before_{};
-    std::size_t last_write_ = 0;    // writes take turns
+    std::size_t last_write_ = 0;  // writes take turns
     bool wrote_last_ = false;
 };
 

@@ -71,10 +71,7 @@ struct server {
     {
         return write_registers(r.at, std::span(&r.value, 1));
     }
-    response operator()(const modbus::write_multiple_registers& r) const
-    {
-        return write_registers(r.first, r.values);
-    }
+    response operator()(const modbus::write_multiple_registers& r) const { return write_registers(r.first, r.values); }
 
     // V1.1b3 section 6.16: (current AND and_mask) OR (or_mask AND NOT and_mask)
     response operator()(const modbus::mask_write_register& r) const

@@ -74,8 +74,8 @@ parsed parse_read_write(bytes pdu)
     if (read_count < 1 || read_count > max_read_registers || write_count < 1 ||
         write_count > max_read_write_registers || pdu[9] != 2 * write_count || pdu.size() != 10U + pdu[9])
         return bad_value;
-    return request{read_write_multiple_registers{address_at(pdu, 1), read_count, address_at(pdu, 5),
-                                                 read_words(pdu.subspan(10))}};
+    return request{
+        read_write_multiple_registers{address_at(pdu, 1), read_count, address_at(pdu, 5), read_words(pdu.subspan(10))}};
 }
 
 function read_function(table from)
@@ -142,10 +142,7 @@ struct coder {
     function operator()(const write_multiple_coils&) const { return function::write_multiple_coils; }
     function operator()(const write_multiple_registers&) const { return function::write_multiple_registers; }
     function operator()(const mask_write_register&) const { return function::mask_write_register; }
-    function operator()(const read_write_multiple_registers&) const
-    {
-        return function::read_write_multiple_registers;
-    }
+    function operator()(const read_write_multiple_registers&) const { return function::read_write_multiple_registers; }
 };
 
 }  // namespace

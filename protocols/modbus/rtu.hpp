@@ -13,8 +13,9 @@ inline constexpr std::size_t max_rtu_size = max_pdu_size + rtu_overhead;
 
 buffer encode_rtu(const frame& f);
 
-// Collects what a line brings after a request and finds the answer in it. Length ends a whole answer at once. Noise before
-// it, such as the 00 or FF of a transceiver that turns round, is skipped: unit, function, length and CRC must all fit.
+// Collects what a line brings after a request and finds the answer in it. Length ends a whole answer at once. Noise
+// before it, such as the 00 or FF of a transceiver that turns round, is skipped: unit, function, length and CRC must
+// all fit.
 class rtu_answer {
 public:
     rtu_answer(unit_id unit, const request& question);

@@ -7,8 +7,7 @@ namespace plcgw::modbus {
 rtu_transaction::rtu_transaction(unit_id unit, request question, const rtu_timing& timing, time_point line_free_from,
                                  time_point now)
     : unit_(unit), question_(std::move(question)), timing_(timing), adu_(encode_rtu({unit, encode_request(question_)})),
-      line_free_from_(line_free_from),
-      give_up_(std::max(now, line_free_from) + timing.response_timeout)
+      line_free_from_(line_free_from), give_up_(std::max(now, line_free_from) + timing.response_timeout)
 {
 }
 
@@ -34,8 +33,7 @@ rtu_transaction::action rtu_transaction::next(time_point now)
         state_ = state::sending;
         return send{adu_};
 
-    case state::sending:
-        return send{adu_};
+    case state::sending: return send{adu_};
 
     case state::wait_for_answer:
         if (now < sent_until_ + timing_.response_timeout)
@@ -49,8 +47,7 @@ rtu_transaction::action rtu_transaction::next(time_point now)
         fail_attempt(now, answer_->failure());
         return next(now);
 
-    case state::finished:
-        break;
+    case state::finished: break;
     }
     return done{};
 }

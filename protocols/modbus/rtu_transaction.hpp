@@ -30,7 +30,8 @@ public:
     using action = std::variant<send, wait, done>;
 
     // line_free_from: when the line will have been silent for long enough, as the transaction before said.
-    rtu_transaction(unit_id unit, request question, const rtu_timing& timing, time_point line_free_from, time_point now);
+    rtu_transaction(unit_id unit, request question, const rtu_timing& timing, time_point line_free_from,
+                    time_point now);
     rtu_transaction(const rtu_transaction&) = delete;  // the answer points to the question
     rtu_transaction& operator=(const rtu_transaction&) = delete;
 
@@ -61,10 +62,10 @@ private:
     std::optional<rtu_answer> answer_;
     state state_ = state::wait_for_line;
     time_point line_free_from_;
-    time_point give_up_;        // when a line that never falls silent is reported
-    time_point sent_until_{};   // end of the last byte of the last request on the wire
+    time_point give_up_;                          // when a line that never falls silent is reported
+    time_point sent_until_{};                     // end of the last byte of the last request on the wire
     std::optional<time_point> unanswered_since_;  // end of the first request that nobody answered
-    time_point heard_{};        // last byte received
+    time_point heard_{};                          // last byte received
     unsigned attempts_ = 0;
     std::size_t stray_bytes_ = 0;
     duration response_time_{};

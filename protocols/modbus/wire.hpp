@@ -20,7 +20,7 @@ inline void append_word(buffer& to, std::uint16_t value)
 
 constexpr std::size_t packed_size(std::size_t bit_count) { return (bit_count + 7) / 8; }
 
-void append_bits(buffer& to, const std::vector<bool>& bits);  // first bit = least significant of the first byte
+void append_bits(buffer& to, const std::vector<bool>& bits);   // first bit = least significant of the first byte
 std::vector<bool> read_bits(bytes packed, std::size_t count);  // packed holds packed_size(count) bytes at least
 
 void append_words(buffer& to, const std::vector<std::uint16_t>& words);

@@ -6,6 +6,7 @@ namespace {
 using enum device_kind;
 using enum modbus::table;
 
+// clang-format off
 constexpr area areas[] = {
     // kind  first  count  bits
     {x,       0,     256,   1},   // X0-X377
@@ -67,6 +68,8 @@ constexpr map_row standard_map[] = {
     {holding_registers, 0xA798,     16, {cs, 0}},
     {holding_registers, 0xA7A8,     16, {y, 0}},
 };
+
+// clang-format on
 
 // FX3 manual 7.1 lists 07, 08, 0B, 0C and 11 as well: they belong to a serial line and are not answered over TCP.
 constexpr modbus::function functions[] = {
