@@ -11,7 +11,7 @@ using modbus::table;
 struct allocation_set {
     std::uint16_t code;  // 0-5: a bit device in coils, 6-B: the same in holding registers, C-F: word devices
     std::uint16_t blocks;
-    std::uint16_t head;
+    std::uint16_t head;  // as it stands in the register
 };
 
 constexpr device_kind kinds_by_code[] = {
@@ -23,6 +23,15 @@ constexpr std::uint16_t first_register_code = 6;
 constexpr std::uint16_t code_d = 0xC;
 constexpr std::uint16_t code_r = 0xD;
 constexpr std::uint16_t most_blocks = 2048;
+
+// "X and Y addressing should always be completed in octal, i.e. 00, 20, 40" (9.4.1): K20 is X20, the seventeenth input.
+// So the decimal digits of the register are the octal number. Nothing when there is an 8 or a 9 among them.
+std::optional<device> head_of(const allocation_set& set)
+{
+    const device_kind kind = kinds_by_code[set.code];
+    const std::string digits = std::to_string(set.head);
+    return parse_device(std::string(to_string(kind)) + digits);
+}
 
 const area* area_of(const model& m, device d)
 {
@@ -42,20 +51,21 @@ std::uint32_t devices_per_block(const allocation_set& set, const area& of)
 // The manual's checks. Empty when the set is valid.
 std::string fault_of(const model& m, const allocation_set& set)
 {
-    const device head{kinds_by_code[set.code], set.head};
-    const area* const of = area_of(m, head);
+    const auto head = head_of(set);
+    const area* const of = head ? area_of(m, *head) : nullptr;
     if (set.blocks > most_blocks)
         return "size " + std::to_string(set.blocks) + " is more than 2048 blocks";
     if (of == nullptr)
-        return std::string(to_string(head)) + " does not exist in this PLC";
+        return std::string(to_string(kinds_by_code[set.code])) + std::to_string(set.head) +
+               " does not exist in this PLC";
     const std::uint32_t step = set.code < first_register_code ? 8 : 16;
-    if (of->bits_per_device == 1 && set.head % step != 0)
-        return "head " + to_string(head) + " is no multiple of " + std::to_string(step);
+    if (of->bits_per_device == 1 && head->number % step != 0)
+        return "head " + to_string(*head) + " is no multiple of " + std::to_string(step) + " points";
     const std::uint32_t devices = set.blocks * devices_per_block(set, *of);
-    if (devices > of->count - (set.head - of->first)) {
-        const device last{head.kind, set.head + devices - 1};
-        const device end{head.kind, of->first + of->count - 1};
-        return to_string(head) + "-" + to_string(last) + " exceeds the range of this PLC, which ends at " +
+    if (devices > of->count - (head->number - of->first)) {
+        const device last{head->kind, head->number + devices - 1};
+        const device end{head->kind, of->first + of->count - 1};
+        return to_string(*head) + "-" + to_string(last) + " exceeds the range of this PLC, which ends at " +
                to_string(end);
     }
     return {};
@@ -63,7 +73,7 @@ std::string fault_of(const model& m, const allocation_set& set)
 
 map_row row_of(const model& m, const allocation_set& set, std::uint32_t first)
 {
-    const device head{kinds_by_code[set.code], set.head};
+    const device head = *head_of(set);
     const area& of = *area_of(m, head);
     const std::uint32_t bits = set.blocks * devices_per_block(set, of) * of.bits_per_device;
     if (set.code < first_register_code)

@@ -7,6 +7,8 @@ namespace {
 
 constexpr int probe_share = 20;  // a probe is followed by 19 times its duration without one
 constexpr duration idle_check = std::chrono::seconds(1);
+constexpr duration longest_delay = std::chrono::seconds(5);  // no station answers later than that
+constexpr duration slack = std::chrono::milliseconds(100);   // time on the wire and jitter of a late answer
 
 }  // namespace
 
@@ -38,7 +40,7 @@ time_point schedule::ready_at(std::size_t index, time_point now) const
     const station_state& of = stations_[each.station];
     const time_point own = each.period != duration{} ? each.due : each.asked ? now : time_point::max();
     switch (of.health.state()) {
-    case health::healthy: return own;
+    case health::healthy: return std::max(own, of.not_before);
     // The same question again: should the answer to the failed one come late, it answers this one.
     case health::suspect: return index == of.failed_item ? own : time_point::max();
     case health::down: break;
@@ -92,8 +94,10 @@ std::optional<std::size_t> schedule::first_poll(time_point now) const
 std::optional<schedule::turn> schedule::next(time_point now)
 {
     // Probes first: their share is limited, and behind the polls of a full line they would never come.
-    if (const auto probe = first_probe(now))
+    if (const auto probe = first_probe(now)) {
+        items_[*probe].asked = false;
         return turn{*probe, false};
+    }
 
     const auto write = first_write(now);
     const auto poll = first_poll(now);
@@ -124,19 +128,28 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
     station_state& of = stations_[each.station];
     const bool was_probe = of.health.state() == health::down;
 
+    const time_point asked_at = now - took;
     if (how == outcome::answered) {
         of.health.answered();
+        // The answer may belong to an earlier question. Then the answers to the later ones come as late, and must not
+        // meet another question to this station.
+        if (of.silent_last && now - *of.silent_last <= longest_delay)
+            of.not_before = asked_at + std::min(now - of.silent_since, longest_delay) + slack;
+        of.silent_last.reset();
     }
     else if (how == outcome::silent) {
         if (of.health.state() == health::healthy)
             of.failed_item = done.item;
         of.health.failed(now);
+        if (!of.silent_last || asked_at - *of.silent_last > longest_delay)
+            of.silent_since = asked_at;
+        of.silent_last = asked_at;
     }
     if (how != outcome::answered && each.period == duration{})
         each.asked = true;  // a write that nobody took is still wanted
     if (was_probe)
         probe_not_before_ = now + (probe_share - 1) * took;
-    if (each.period != duration{})
+    if (each.period != duration{} && of.health.state() != health::suspect)  // else it is asked again at once
         advance(each, now);
 }
 
@@ -146,7 +159,7 @@ void schedule::advance(item_state& of, time_point now)
 {
     of.due += of.period;
     if (of.due + of.period < now)
-        of.due = now;
+        of.due += ((now - of.due) / of.period + 1) * of.period;
 }
 
 }  // namespace plcgw

@@ -47,7 +47,10 @@ private:
     };
     struct station_state {
         station_health health;
-        std::size_t failed_item = 0;  // asked again before anything else while not healthy
+        std::size_t failed_item = 0;            // asked again before anything else while not healthy
+        std::optional<time_point> silent_last;  // when the last question went out that was not answered
+        time_point silent_since{};              // and the first one of that row
+        time_point not_before{};                // until then answers to those may still come
     };
 
     time_point ready_at(std::size_t index, time_point now) const;

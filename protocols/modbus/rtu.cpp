@@ -55,6 +55,15 @@ std::optional<response> rtu_answer::answer_at(std::size_t start) const
     return std::move(*answer);
 }
 
+bool rtu_answer::begun() const
+{
+    for (std::size_t i = 0; i < received_.size(); ++i)
+        if (received_[i] == static_cast<std::uint8_t>(unit_) &&
+            (i + 1 == received_.size() || (received_[i + 1] & 0x7F) == function_))
+            return true;
+    return false;
+}
+
 errc rtu_answer::failure() const
 {
     if (received_.empty())

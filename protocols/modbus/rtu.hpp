@@ -25,6 +25,9 @@ public:
 
     bool empty() const { return received_.empty(); }
 
+    // Whether our station's answer has begun somewhere in the bytes so far. If not, they were noise or a stranger's.
+    bool begun() const;
+
     // Why there was no answer in the bytes so far, to be asked when the line fell silent.
     errc failure() const;
 

@@ -13,11 +13,14 @@ rtu_transaction::rtu_transaction(unit_id unit, request question, const rtu_timin
 
 duration rtu_transaction::gap() const { return std::max(timing_.gap, frame_gap(timing_.format)); }
 
-// The end of a damaged answer. A line that babbles for ever does not hold us for longer than an answer can last.
+// The end of a damaged answer. A line that babbles for ever does not hold us for longer than an answer can last. Noise
+// and the answer of an unexpected station leave the response timeout running (V1.02 section 2.4.1).
 time_point rtu_transaction::silence_ends() const
 {
-    const time_point longest = sent_until_ + timing_.response_timeout + character_time(timing_.format, max_rtu_size);
-    return std::min(heard_, longest) + timing_.silence;
+    const time_point timeout = sent_until_ + timing_.response_timeout;
+    const time_point longest = timeout + character_time(timing_.format, max_rtu_size);
+    const time_point silent = std::min(heard_, longest) + timing_.silence;
+    return answer_->begun() ? silent : std::max(silent, timeout);
 }
 
 rtu_transaction::action rtu_transaction::next(time_point now)
