@@ -1,7 +1,7 @@
 #include "daemon/gateway.hpp"
 
 #include "bridge/dds/log.hpp"
-#include "daemon/config/check.hpp"
+#include "daemon/config/program_file.hpp"
 #include "daemon/log.hpp"
 #include "daemon/service_notify.hpp"
 #include "daemon/version.hpp"

@@ -53,7 +53,7 @@ int check(const std::filesystem::path& config_file)
     const config::loaded loaded = config::load_file(config_file);
     print(config_file, loaded.found);
     if (config::has_errors(loaded.found)) {
-        fmt::print(stderr, "{}: {}\n", config_file.string(), counted(loaded.found.size(), "mistake"));
+        fmt::print(stderr, "{}: {}\n", config_file.string(), counted(config::count_errors(loaded.found), "mistake"));
         return 1;
     }
     const gateway_config& c = loaded.config;

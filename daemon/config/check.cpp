@@ -1,19 +1,22 @@
 #include "daemon/config/check.hpp"
 
 #include "bridge/plc/simulated_plc.hpp"
+#include "daemon/config/ip_address.hpp"
+#include "daemon/config/program_file.hpp"
 #include "daemon/config/reader.hpp"
-
-#include <boost/asio/ip/address.hpp>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
-#include <sstream>
 
 namespace plcgw::config {
 namespace {
+
+// One spelling of each path. Symbolic links stay: their ports come and go.
+std::filesystem::path port_of(const line_config& l) { return std::filesystem::path(l.device).lexically_normal(); }
+
+// As daemon/gateway.cpp calls it in DDS: "main.D0".
+std::string block_name(const block_config& b) { return b.plc + "." + plc::to_string(*plc::parse_device(b.device)); }
 
 // The devices that a row of the configuration takes in a PLC's memory.
 struct occupied {
@@ -34,6 +37,8 @@ public:
     checker(const gateway_config& c, const located_json& file, const std::string& folder, mistakes& found)
         : c_(c), file_(file), folder_(folder), found_(found)
     {
+        for (const mistake& each : found)
+            unread_.insert(each.pointer);
     }
 
     void run()
@@ -52,6 +57,7 @@ public:
             check_route(i, c_.routes[i]);
         for (std::size_t i = 0; i < c_.modbus_tcp.size(); ++i)
             check_server(i, c_.modbus_tcp[i]);
+        check_peers();
         check_blocks();
     }
 
@@ -70,9 +76,22 @@ private:
                 complain(item(list, i, "name"), "\"" + rows[i].name + "\" stands twice: give each its own name");
     }
 
-    // The row with this name. An absent name was already complained about.
+    // Nothing in this row was complained about while it was read: no default stands in for what was meant.
+    bool is_sound(const std::string& row) const
+    {
+        const auto inside = unread_.lower_bound(row + "/");
+        return !unread_.contains(row) && (inside == unread_.end() || !inside->starts_with(row + "/"));
+    }
+
+    const plc_config* find_plc(const std::string& name, const std::string& at)
+    {
+        return find("plcs", c_.plcs, "PLC", name, at);
+    }
+
+    // The row with this name. An absent name was already complained about, here or in the list.
     template <class Row>
-    const Row* find(const std::vector<Row>& rows, const std::string& name, const char* what, const std::string& at)
+    const Row* find(const char* list, const std::vector<Row>& rows, const char* what, const std::string& name,
+                    const std::string& at)
     {
         std::vector<std::string> known;
         for (const Row& each : rows) {
@@ -80,7 +99,8 @@ private:
                 return &each;
             known.push_back(each.name);
         }
-        if (name.empty())
+        const bool unread = std::find(known.begin(), known.end(), "") != known.end();
+        if (name.empty() || unread || (rows.empty() && !is_sound(std::string("/") + list)))
             return nullptr;
         const std::string meant = nearest(name, known);
         std::string cure = meant.empty() ? std::string("add it") : "did you mean \"" + meant + "\"?";
@@ -105,7 +125,8 @@ private:
             complain(item("plcs", i, "program_file"), "names \"" + p.program_file + "\", which cannot be read");
             return;
         }
-        check_program(i, p, *model, *program);
+        if (is_sound(item("plcs", i, "program")))
+            check_program(i, p, *model, *program);
     }
 
     void check_program(std::size_t i, const plc_config& p, const plc::model& model, const std::string& text)
@@ -138,25 +159,31 @@ private:
         if (l.data_bits != 8)
             complain(item("lines", i, "data_bits"), "is 7, but MODBUS RTU needs 8 data bits");
         for (std::size_t other = 0; other < i; ++other)
-            if (!l.device.empty() && c_.lines[other].device == l.device)
+            if (!l.device.empty() && port_of(c_.lines[other]) == port_of(l))
                 complain(item("lines", i, "device"),
                          "is already the device of line \"" + c_.lines[other].name + "\": a port belongs to one line");
     }
 
     void check_station(std::size_t i, const station_config& s)
     {
-        find(c_.lines, s.line, "line", item("stations", i, "line"));
+        find("lines", c_.lines, "line", s.line, item("stations", i, "line"));
         for (std::size_t other = 0; other < i; ++other)
-            if (c_.stations[other].line == s.line && c_.stations[other].unit == s.unit)
-                complain(item("stations", i, "unit"), "is already the unit id of station \"" +
-                                                          c_.stations[other].name + "\" on the same line");
+            if (c_.stations[other].line == s.line && c_.stations[other].unit == s.unit &&
+                is_sound(item("stations", i)) && is_sound(item("stations", other)))
+                complain(item("stations", i, "unit"),
+                         "is already the unit id of station \"" + c_.stations[other].name + "\" on the same line");
     }
 
     void check_route(std::size_t i, const route_config& r)
     {
-        const auto* const from = find(c_.stations, r.station, "station", item("routes", i, "station"));
+        const auto* const from = find("stations", c_.stations, "station", r.station, item("routes", i, "station"));
+        if (!is_sound(item("routes", i))) {
+            check_devices(item("routes", i), r.plc, r.device, 1);
+            return;
+        }
         if (from != nullptr && from->unit == 0 && r.way == direction::read)
-            complain(item("routes", i, "station"), "is unit 0, the broadcast: nobody answers, only write routes can use it");
+            complain(item("routes", i, "station"),
+                     "is unit 0, the broadcast: nobody answers, only write routes can use it");
         check_request(i, r);
         const std::size_t bits = modbus::is_bit_table(r.table) ? r.count : std::size_t{16} * r.count;
         const auto at = check_devices(item("routes", i), r.plc, r.device, bits);
@@ -182,7 +209,7 @@ private:
     std::optional<plc::place> check_devices(const std::string& row, const std::string& plc, const std::string& device,
                                             std::size_t bits)
     {
-        const plc_config* const owner = find(c_.plcs, plc, "PLC", row + "/plc");
+        const plc_config* const owner = find_plc(plc, row + "/plc");
         const plc::model* const model = owner == nullptr ? nullptr : plc::find_model(owner->model);
         if (model == nullptr || device.empty())
             return std::nullopt;
@@ -194,8 +221,8 @@ private:
         const plc::memory memory(*model);
         const auto at = memory.find(*parsed);
         if (!at) {
-            complain(row + "/device", "is " + plc::to_string(*parsed) + ", which a " + std::string(model->name) +
-                                          " does not have");
+            complain(row + "/device",
+                     "is " + plc::to_string(*parsed) + ", which a " + std::string(model->name) + " does not have");
             return std::nullopt;
         }
         if (memory.bits_from(*at) < bits) {
@@ -219,34 +246,67 @@ private:
 
     void check_server(std::size_t i, const tcp_server_config& s)
     {
-        boost::system::error_code wrong;
-        boost::asio::ip::make_address(s.listen, wrong);
-        if (wrong)
-            complain(item("modbus_tcp", i, "listen"), "is \"" + s.listen + "\", expected an IP address such as 0.0.0.0");
-        for (std::size_t other = 0; other < i; ++other)
-            if (c_.modbus_tcp[other].port == s.port && c_.modbus_tcp[other].listen == s.listen)
-                complain(item("modbus_tcp", i, "port"), "is already taken by server " + std::to_string(other));
+        if (!ip_address(s.listen))
+            complain(item("modbus_tcp", i, "listen"),
+                     "is \"" + s.listen + "\", expected an IP address such as 0.0.0.0");
+        check_port(i, s);
         if (!s.other_units.empty())
-            find(c_.plcs, s.other_units, "PLC", item("modbus_tcp", i, "other_units"));
-        if (s.units.empty() && s.other_units.empty())
+            find_plc(s.other_units, item("modbus_tcp", i, "other_units"));
+        if (s.units.empty() && s.other_units.empty() && is_sound(item("modbus_tcp", i)))
             complain(item("modbus_tcp", i), "leads to no PLC: give \"units\" or \"other_units\"");
         std::set<unsigned> seen;
         for (std::size_t u = 0; u < s.units.size(); ++u) {
             const std::string at = item("modbus_tcp", i, "units") + "/" + std::to_string(u);
-            find(c_.plcs, s.units[u].plc, "PLC", at + "/plc");
-            if (!seen.insert(s.units[u].unit).second)
+            find_plc(s.units[u].plc, at + "/plc");
+            if (is_sound(at) && !seen.insert(s.units[u].unit).second)
                 complain(at + "/unit", "stands twice: a unit id leads to one PLC");
+        }
+    }
+
+    void check_port(std::size_t i, const tcp_server_config& s)
+    {
+        const auto address = ip_address(s.listen);
+        for (std::size_t other = 0; other < i; ++other) {
+            const auto taken = ip_address(c_.modbus_tcp[other].listen);
+            if (c_.modbus_tcp[other].port != s.port || !address || !taken || !exclude_each_other(*address, *taken))
+                continue;
+            if (is_sound(item("modbus_tcp", i)) && is_sound(item("modbus_tcp", other)))
+                complain(item("modbus_tcp", i, "port"), "is " + std::to_string(s.port) + ", which " +
+                                                            item("modbus_tcp", other) +
+                                                            " takes already: listen on another port or address");
+        }
+    }
+
+    // Cyclone runs on IPv4 here; it would look up a name while the gateway waits.
+    void check_peers()
+    {
+        for (std::size_t i = 0; i < c_.dds.settings.peers.size(); ++i) {
+            const std::string& peer = c_.dds.settings.peers[i];
+            const auto address = ip_address(peer);
+            if (!peer.empty() && (!address || !address->is_v4()))
+                complain("/dds/peers/" + std::to_string(i),
+                         "is \"" + peer + "\", expected an IPv4 address such as 192.168.1.5, not a name");
         }
     }
 
     void check_blocks()
     {
+        std::set<std::string> seen;
         for (std::size_t i = 0; i < c_.dds.blocks.size(); ++i) {
             const block_config& b = c_.dds.blocks[i];
+            const std::string row = "/dds/blocks/" + std::to_string(i);
             const auto device = plc::parse_device(b.device);
             const bool bits = device && plc::is_bit_kind(device->kind);
-            check_devices("/dds/blocks/" + std::to_string(i), b.plc, b.device,
-                          bits ? b.count : std::size_t{16} * b.count);
+            const std::size_t size = bits ? b.count : std::size_t{16} * b.count;
+            if (!check_devices(row, b.plc, b.device, is_sound(row) ? size : 1))
+                continue;
+            const std::string name = block_name(b);
+            if (name.size() > name_rule.most)
+                complain(row + "/plc", "makes \"" + name + "\", which is longer than the " +
+                                           std::to_string(name_rule.most) +
+                                           " bytes of a DDS name: shorten the PLC's name");
+            else if (!seen.insert(name).second)
+                complain(row + "/device", "makes \"" + name + "\" a second time: raise the count of the first one");
         }
     }
 
@@ -254,25 +314,11 @@ private:
     const located_json& file_;
     const std::string& folder_;
     mistakes& found_;
+    std::set<std::string> unread_;  // where the reader found mistakes
     std::vector<occupied> occupied_;
 };
 
 }  // namespace
-
-std::optional<std::string> program_text(const plc_config& c, const std::string& folder)
-{
-    if (c.program_file.empty()) {
-        std::string text;
-        for (const std::string& line : c.program)
-            text += line + "\n";
-        return text;
-    }
-    std::ifstream file(std::filesystem::path(folder) / c.program_file);
-    std::ostringstream text;
-    if (!file || !(text << file.rdbuf()))
-        return std::nullopt;
-    return text.str();
-}
 
 void check(const gateway_config& c, const located_json& file, const std::string& folder, mistakes& found)
 {

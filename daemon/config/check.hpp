@@ -9,7 +9,4 @@ namespace plcgw::config {
 // folder: for program_file.
 void check(const gateway_config& c, const located_json& file, const std::string& folder, mistakes& found);
 
-// The text of a PLC's setup program, from the configuration or its file. Nothing when the file cannot be read.
-std::optional<std::string> program_text(const plc_config& c, const std::string& folder);
-
 }  // namespace plcgw::config

@@ -46,7 +46,7 @@ struct line_config {
     milliseconds response_timeout{500};
     unsigned retries = 1;
     milliseconds turnaround_delay{100};
-    microseconds gap{0};        // 0 = 3.5 characters; 1.75 ms above 19200 bit/s
+    microseconds gap{0};  // 0 = 3.5 characters; 1.75 ms above 19200 bit/s
     milliseconds silence{20};
 };
 

@@ -53,6 +53,39 @@ private:
     reading_position* position_;
 };
 
+constexpr std::size_t most_levels = 32;  // a configuration has 5
+
+// Parts of nlohmann's "syntax error while parsing object key - unexpected '}'; expected ...", and what helps.
+struct syntax_cure {
+    std::string_view when;
+    std::string_view cure;
+};
+
+constexpr syntax_cure syntax_cures[] = {
+    {"unexpected end of input", ": is the file complete?"},
+    {"object key - unexpected '}'", ": is there a comma too many before it?"},
+    {"value - unexpected ']'", ": is there a comma too many before it?"},
+    {"object - unexpected string literal", ": is a comma missing before it?"},
+    {"array - unexpected string literal", ": is a comma missing before it?"},
+    {"array - unexpected number literal", ": is a comma missing before it?"},
+    {"array - unexpected '{'", ": is a comma missing before it?"},
+};
+
+std::string syntax_error(std::string_view what)
+{
+    std::string_view said = what;  // "[json.exception.parse_error.101] parse error at line 3, column 7: syntax ..."
+    for (const std::string_view lead : {"] ", " - "})
+        said.remove_prefix(said.find(lead) == said.npos ? 0 : said.find(lead) + lead.size());
+    constexpr std::size_t longest = 120;
+    if (said.size() > longest)
+        said = said.substr(0, std::min(longest, said.find("; last read")));
+    std::string text = "is no JSON: " + std::string(said);
+    for (const syntax_cure& each : syntax_cures)
+        if (what.find(each.when) != what.npos)
+            return text.append(each.cure);
+    return text;
+}
+
 class builder : public nlohmann::json_sax<json> {
 public:
     builder(located_json& to, const reading_position& position, mistakes& found)
@@ -85,9 +118,7 @@ public:
 
     bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override
     {
-        const std::string_view what = error.what();  // "[json.exception...] parse error at line 3, column 7: ..."
-        const std::size_t start = what.find("] ");
-        found_.push_back({"", position_.line, std::string(start == what.npos ? what : what.substr(start + 2))});
+        found_.push_back({"", position_.line, syntax_error(error.what())});
         return false;
     }
 
@@ -105,6 +136,11 @@ private:
 
     bool open(json empty)
     {
+        if (open_.size() == most_levels) {
+            found_.push_back(
+                {"", position_.line, "is nested deeper than any configuration: look for a bracket too many"});
+            return false;
+        }
         std::string pointer = next_pointer();
         json* const placed = place(std::move(empty));
         open_.push_back({placed, std::move(pointer)});
@@ -148,10 +184,16 @@ private:
 
 }  // namespace
 
-std::size_t located_json::line_of(const std::string& pointer) const
+std::size_t located_json::line_of(std::string pointer) const
 {
-    const auto found = lines.find(pointer);
-    return found == lines.end() ? 1 : found->second;
+    for (;;) {
+        if (const auto found = lines.find(pointer); found != lines.end())
+            return found->second;
+        const std::size_t parent = pointer.rfind('/');
+        if (parent == pointer.npos)
+            return 1;
+        pointer.erase(parent);
+    }
 }
 
 std::string escape_pointer(std::string_view key)
@@ -171,13 +213,20 @@ std::string escape_pointer(std::string_view key)
 located_json parse_located(std::string_view text, mistakes& found)
 {
     located_json parsed;
+    // nlohmann takes a zero byte for the end of the file, whatever follows.
+    if (const std::size_t zero = text.find('\0'); zero != text.npos) {
+        const auto breaks = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
+        found.push_back({"", static_cast<std::size_t>(breaks) + 1, "holds a zero byte: save the file as UTF-8"});
+        return parsed;
+    }
     reading_position position;
     builder sax(parsed, position, found);
     const counting_iterator first(text.data(), &position);
     const counting_iterator last(text.data() + text.size(), &position);
     constexpr bool strict = true;
     constexpr bool ignore_comments = true;
-    parsed.complete = json::sax_parse(first, last, &sax, nlohmann::detail::input_format_t::json, strict, ignore_comments);
+    parsed.complete =
+        json::sax_parse(first, last, &sax, nlohmann::detail::input_format_t::json, strict, ignore_comments);
     return parsed;
 }
 

@@ -13,10 +13,10 @@ namespace plcgw::config {
 
 struct located_json {
     nlohmann::json value;
-    bool complete = false;  // no syntax error
+    bool complete = false;                     // no syntax error
     std::map<std::string, std::size_t> lines;  // JSON pointer -> line of the key, or of the element in an array
 
-    std::size_t line_of(const std::string& pointer) const;
+    std::size_t line_of(std::string pointer) const;  // of what it stands in, if it is absent
 };
 
 // Syntax errors and keys that stand twice are mistakes.

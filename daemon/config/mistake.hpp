@@ -17,6 +17,7 @@ struct mistake {
 
 using mistakes = std::vector<mistake>;
 
+std::size_t count_errors(const mistakes& all);  // without the warnings
 bool has_errors(const mistakes& all);
 std::string to_string(const std::string& file, const mistake& m);  // "etc/demo.json:12: /lines/0/parity: ..."
 

@@ -12,7 +12,7 @@ struct loaded {
     gateway_config config;  // as far as it could be read
     mistakes found;
     std::string folder;  // of the file: program_file is relative to it
-    std::string hash;  // of the file's text, 16 hexadecimal digits
+    std::string hash;    // of the file's text, 16 hexadecimal digits
 };
 
 loaded load_file(const std::filesystem::path& file);

@@ -1,10 +1,17 @@
 #include "daemon/config/reader.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <numeric>
 
 namespace plcgw::config {
 namespace {
+
+bool same_letter(char a, char b)
+{
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+}
 
 std::size_t edit_distance(const std::string& a, const std::string& b)
 {
@@ -13,7 +20,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
     for (std::size_t i = 1; i <= a.size(); ++i) {
         std::size_t diagonal = std::exchange(row[0], i);
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            const std::size_t replaced = diagonal + (same_letter(a[i - 1], b[j - 1]) ? 0 : 1);
             diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, replaced}));
         }
     }
@@ -31,10 +38,28 @@ std::string joined(const std::vector<std::string_view>& names)
 std::string dumped(const nlohmann::json& value)
 {
     std::string said = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    constexpr std::size_t longest = 60;
-    if (said.size() > longest)
-        said = said.substr(0, longest) + "...";
-    return said;
+    std::size_t longest = 60;
+    if (said.size() <= longest)
+        return said;
+    while ((static_cast<unsigned char>(said[longest]) & 0xC0U) == 0x80U)  // not within a character
+        --longest;
+    return said.substr(0, longest) + "...";
+}
+
+bool is_control(char c) { return (static_cast<unsigned char>(c) < 0x20U && c != '\t') || c == '\x7F'; }
+
+// As JSON Schema has it: 1.0 is an integer.
+std::optional<std::int64_t> whole_number(const nlohmann::json& from)
+{
+    constexpr double exact = 9007199254740992.0;  // 2^53
+    if (from.is_number_unsigned() && from.get<std::uint64_t>() > INT64_MAX)
+        return std::nullopt;
+    if (from.is_number_integer())
+        return from.get<std::int64_t>();
+    if (from.is_number_float() && std::abs(from.get<double>()) < exact &&
+        std::trunc(from.get<double>()) == from.get<double>())
+        return static_cast<std::int64_t>(from.get<double>());
+    return std::nullopt;
 }
 
 }  // namespace
@@ -44,7 +69,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
     std::string best;
     std::size_t fewest = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
-        const std::size_t edits = edit_distance(word, candidate);
+        const bool without_unit = candidate.starts_with(word + "_");  // "period" for "period_ms"
+        const std::size_t edits = without_unit ? 1 : edit_distance(word, candidate);
         if (edits < fewest) {
             fewest = edits;
             best = candidate;
@@ -61,7 +87,8 @@ void reader::report_unknown_keys()
         const std::string meant = nearest(key, known_);
         std::vector<std::string_view> all(known_.begin(), known_.end());
         complain(pointer_ + "/" + escape_pointer(key),
-                 "is no known key: " + (meant.empty() ? "known are " + joined(all) : "did you mean \"" + meant + "\"?"));
+                 "is no known key: " +
+                     (meant.empty() ? "known are " + joined(all) : "did you mean \"" + meant + "\"?"));
     }
 }
 
@@ -73,9 +100,11 @@ void reader::read(const nlohmann::json& from, const std::string& at, std::string
     }
     const auto& value = from.get_ref<const std::string&>();
     if (value.size() < rule.least)
-        complain(at, "is empty");
+        complain(at, value.empty() ? "is empty: give it a text" : "is " + dumped(from) + ", which is too short");
     else if (value.size() > rule.most)
         complain(at, "is longer than " + std::to_string(rule.most) + " bytes: shorten it");
+    else if (std::any_of(value.begin(), value.end(), is_control))
+        complain(at, "is " + dumped(from) + ", expected a text without line breaks and control characters");
     else
         out = value;
 }
@@ -106,9 +135,9 @@ void reader::read(const nlohmann::json& from, const std::string& at, std::vector
 
 std::optional<std::int64_t> reader::integer(const nlohmann::json& from, const std::string& at, const range& rule)
 {
-    const bool fits = from.is_number_integer() && (!from.is_number_unsigned() || from.get<std::uint64_t>() <= INT64_MAX);
-    if (fits && from.get<std::int64_t>() >= rule.least && from.get<std::int64_t>() <= rule.most)
-        return from.get<std::int64_t>();
+    const auto value = whole_number(from);
+    if (value && *value >= rule.least && *value <= rule.most)
+        return value;
     complain(at, "is " + dumped(from) + ", expected a whole number from " + std::to_string(rule.least) + " to " +
                      std::to_string(rule.most));
     return std::nullopt;

@@ -68,7 +68,7 @@ private:
         complain_choice(from, at, names);
     }
 
-    // Lines of text: an array of strings, or one string with line breaks.
+    // Lines of text: an array of strings.
     void read(const nlohmann::json& from, const std::string& at, std::vector<std::string>& out, const text& rule);
 
     template <class Struct>
@@ -83,7 +83,7 @@ private:
     }
 
     template <class Struct>
-        requires std::is_class_v<Struct>
+    requires std::is_class_v<Struct>
     void read(const nlohmann::json& from, const std::string& at, Struct& out)
     {
         if (!from.is_object()) {

@@ -26,7 +26,10 @@ json value_schema(const std::string& value, const text& rule)
 
 json value_schema(bool value) { return {{"type", "boolean"}, {"default", value}}; }
 
-json integer_schema(const range& rule) { return {{"type", "integer"}, {"minimum", rule.least}, {"maximum", rule.most}}; }
+json integer_schema(const range& rule)
+{
+    return {{"type", "integer"}, {"minimum", rule.least}, {"maximum", rule.most}};
+}
 
 json value_schema(unsigned value, const range& rule)
 {
@@ -75,11 +78,7 @@ json value_schema(const std::vector<Struct>&)
 }
 
 template <class Struct>
-    requires std::is_class_v<Struct>
-json value_schema(const Struct&)
-{
-    return object_schema<Struct>();
-}
+requires std::is_class_v<Struct> json value_schema(const Struct&) { return object_schema<Struct>(); }
 
 class writer {
 public:
