@@ -111,7 +111,7 @@ asio::awaitable<error_code> serial_line::listen_until(time_point deadline)
     const auto size = co_await read_before(deadline, port_, guard_, asio::buffer(received_));
     idle_ = false;
     if (size)
-        line_free_from_ = now() + gap_;
+        line_free_from_ = std::max(line_free_from_, now() + gap_);
     else if (size.error() != asio::error::timed_out)
         co_return size.error();
     co_return error_code{};
@@ -144,10 +144,11 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
         }
     }
     line_free_from_ = transaction.line_free_from();
+    const unanswered_requests late{transaction.unanswered(), transaction.unanswered_since()};
     if (const auto& outcome = transaction.outcome())
-        routes_.answered(question, *outcome, now(), wall_now());
+        routes_.answered(question, *outcome, now(), wall_now(), late);
     else
-        routes_.failed(question, outcome.error(), now());
+        routes_.failed(question, outcome.error(), now(), late);
     settle_();
     co_return error_code{};
 }

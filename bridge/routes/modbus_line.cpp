@@ -49,11 +49,12 @@ std::optional<modbus_line::question> modbus_line::next(time_point now)
     return q;
 }
 
-void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall)
+void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
+                           unanswered_requests late)
 {
     row& of = routes_[q.turn.item];
     const health before = schedule_.state_of(of.station);
-    schedule_.finished(q.turn, schedule::outcome::answered, now - q.asked_at, now);
+    schedule_.finished(q.turn, schedule::outcome::answered, now - q.asked_at, now, late);
     if (before == health::down)
         note(line_event::severity::info, label(stations_[of.station]) + " answers again");
 
@@ -70,12 +71,13 @@ void modbus_line::answered(const question& q, const modbus::response& answer, ti
     set_quality(of, quality::good, {});
 }
 
-void modbus_line::failed(const question& q, boost::system::error_code why, time_point now)
+void modbus_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
 {
     row& of = routes_[q.turn.item];
     const health before = schedule_.state_of(of.station);
     const bool asked = why != errc::line_not_quiet;
-    schedule_.finished(q.turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now);
+    schedule_.finished(q.turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
+                       late);
     set_quality(of, quality::comm_error, why.message());
     if (before != health::down && schedule_.state_of(of.station) == health::down)
         station_down(of.station, why.message());

@@ -37,9 +37,10 @@ public:
     std::optional<question> next(time_point now);
     time_point wake_at(time_point now) const { return schedule_.wake_at(now); }
 
-    // Each question ends in one of these. `wall` is when the answer came.
-    void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall);
-    void failed(const question& q, boost::system::error_code why, time_point now);
+    // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered.
+    void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
+                  unanswered_requests late = {});
+    void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
     void interrupted(const question& q);  // the port went away: the station is not to blame
 
     void port_lost(const std::string& why);  // values stay, qualities change

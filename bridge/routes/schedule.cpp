@@ -7,6 +7,7 @@ namespace {
 
 constexpr int probe_share = 20;  // a probe is followed by 19 times its duration without one
 constexpr duration idle_check = std::chrono::seconds(1);
+constexpr duration first_round = std::chrono::seconds(1);    // in which every poll is read for the first time
 constexpr duration longest_delay = std::chrono::seconds(5);  // no station answers later than that
 constexpr duration slack = std::chrono::milliseconds(100);   // time on the wire and jitter of a late answer
 
@@ -29,7 +30,7 @@ void schedule::start(time_point now)
     const auto count = static_cast<std::int64_t>(items_.size());
     for (std::int64_t i = 0; i < count; ++i) {
         item_state& each = items_[static_cast<std::size_t>(i)];
-        each.due = now + each.period * i / count;
+        each.due = now + std::min(each.period, first_round) * i / count;
     }
 }
 
@@ -122,28 +123,27 @@ time_point schedule::wake_at(time_point now) const
     return earliest;
 }
 
-void schedule::finished(const turn& done, outcome how, duration took, time_point now)
+void schedule::finished(const turn& done, outcome how, duration took, time_point now, unanswered_requests late)
 {
     item_state& each = items_[done.item];
     station_state& of = stations_[each.station];
     const bool was_probe = of.health.state() == health::down;
 
-    const time_point asked_at = now - took;
+    if (how == outcome::silent && late.count == 0)
+        late = {1, now - took};
+    remember_unanswered(of, late, now);
     if (how == outcome::answered) {
         of.health.answered();
-        // The answer may belong to an earlier question. Then the answers to the later ones come as late, and must not
-        // meet another question to this station.
-        if (of.silent_last && now - *of.silent_last <= longest_delay)
-            of.not_before = asked_at + std::min(now - of.silent_since, longest_delay) + slack;
-        of.silent_last.reset();
+        // The answer may belong to the first of the unanswered requests. Then the other answers follow, each at most as
+        // late as this one was, also from a device that works them off one by one. They must not meet another question.
+        if (of.owed != 0)
+            of.not_before = now + of.owed * std::min(now - of.owed_since, longest_delay) + slack;
+        of.owed = 0;
     }
     else if (how == outcome::silent) {
         if (of.health.state() == health::healthy)
             of.failed_item = done.item;
         of.health.failed(now);
-        if (!of.silent_last || asked_at - *of.silent_last > longest_delay)
-            of.silent_since = asked_at;
-        of.silent_last = asked_at;
     }
     if (how != outcome::answered && each.period == duration{})
         each.asked = true;  // a write that nobody took is still wanted
@@ -151,6 +151,19 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
         probe_not_before_ = now + (probe_share - 1) * took;
     if (each.period != duration{} && of.health.state() != health::suspect)  // else it is asked again at once
         advance(each, now);
+}
+
+// Who was silent for longer than any answer takes owes none.
+void schedule::remember_unanswered(station_state& of, unanswered_requests late, time_point now)
+{
+    if (of.owed != 0 && now - of.last_silence > longest_delay)
+        of.owed = 0;
+    if (late.count == 0)
+        return;
+    if (of.owed == 0)
+        of.owed_since = late.since;
+    of.owed += late.count;
+    of.last_silence = now;
 }
 
 // The next due time keeps its phase. What was missed is skipped, not caught up: a line that stood still for an hour

@@ -10,6 +10,12 @@
 
 namespace plcgw {
 
+// Their answers may still come.
+struct unanswered_requests {
+    unsigned count = 0;
+    time_point since{};  // when the first of them went out
+};
+
 class schedule {
 public:
     explicit schedule(std::size_t stations) : stations_(stations) {}
@@ -18,7 +24,7 @@ public:
     std::size_t add_poll(std::size_t station, duration period);
     std::size_t add_write(std::size_t station);
 
-    void start(time_point now);  // spreads the first polls over their periods
+    void start(time_point now);  // spreads the first polls over their periods, at most over a second
     void ask(std::size_t item) { items_[item].asked = true; }
 
     struct turn {
@@ -34,7 +40,8 @@ public:
         silent,
         not_asked,  // the line was not free: the station is not to blame
     };
-    void finished(const turn& done, outcome how, duration took, time_point now);
+    // late: requests of this turn that were not answered; without it a silent turn counts as one.
+    void finished(const turn& done, outcome how, duration took, time_point now, unanswered_requests late = {});
 
     health state_of(std::size_t station) const { return stations_[station].health.state(); }
 
@@ -47,16 +54,18 @@ private:
     };
     struct station_state {
         station_health health;
-        std::size_t failed_item = 0;            // asked again before anything else while not healthy
-        std::optional<time_point> silent_last;  // when the last question went out that was not answered
-        time_point silent_since{};              // and the first one of that row
-        time_point not_before{};                // until then answers to those may still come
+        std::size_t failed_item = 0;  // asked again before anything else while not healthy
+        unsigned owed = 0;            // answers that may still come
+        time_point owed_since{};      // when the first request of these went out
+        time_point last_silence{};    // when the last one did
+        time_point not_before{};      // until then they may come
     };
 
     time_point ready_at(std::size_t index, time_point now) const;
     std::optional<std::size_t> first_probe(time_point now) const;
     std::optional<std::size_t> first_write(time_point now) const;
     std::optional<std::size_t> first_poll(time_point now) const;
+    void remember_unanswered(station_state& of, unanswered_requests late, time_point now);
     void advance(item_state& of, time_point now);
 
     std::vector<item_state> items_;

@@ -211,13 +211,11 @@ private:
     {
         const plc_config* const owner = find_plc(plc, row + "/plc");
         const plc::model* const model = owner == nullptr ? nullptr : plc::find_model(owner->model);
-        if (model == nullptr || device.empty())
-            return std::nullopt;
         const auto parsed = plc::parse_device(device);
-        if (!parsed) {
+        if (!parsed && !device.empty())
             complain(row + "/device", "is \"" + device + "\", expected a device such as D100, M0 or X17 (octal)");
+        if (!parsed || model == nullptr)
             return std::nullopt;
-        }
         const plc::memory memory(*model);
         const auto at = memory.find(*parsed);
         if (!at) {

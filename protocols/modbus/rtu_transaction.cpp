@@ -88,16 +88,12 @@ void rtu_transaction::answered(time_point now, response answer)
 {
     response_time_ = std::max(duration{}, now - sent_until_);
     line_free_from_ = now + gap();
-    // The answer may belong to an earlier attempt. Then one more is on its way, as late as this one, and must not meet
-    // the next question: let it pass first.
-    if (unanswered_since_)
-        line_free_from_ = std::max(line_free_from_, sent_until_ + (now - *unanswered_since_) + timing_.silence);
     finish(std::move(answer));
 }
 
 void rtu_transaction::fail_attempt(time_point now, errc reason)
 {
-    if (reason == errc::timed_out && !unanswered_since_)
+    if (!answer_->begun() && unanswered_++ == 0)
         unanswered_since_ = sent_until_;
     line_free_from_ = std::max(heard_ + gap(), now);
     if (attempts_ > timing_.retries) {

@@ -43,7 +43,10 @@ public:
     const result<response>& outcome() const { return outcome_; }
     unsigned attempts() const { return attempts_; }
     duration response_time() const { return response_time_; }  // of the attempt that was answered
-    std::size_t stray_bytes() const { return stray_bytes_; }   // heard while nobody was asked
+    // Attempts to which no answer came, and the end of the first of them. Their answers may still come.
+    unsigned unanswered() const { return unanswered_; }
+    time_point unanswered_since() const { return unanswered_since_; }
+    std::size_t stray_bytes() const { return stray_bytes_; }  // heard while nobody was asked
     time_point line_free_from() const { return line_free_from_; }
 
 private:
@@ -62,10 +65,11 @@ private:
     std::optional<rtu_answer> answer_;
     state state_ = state::wait_for_line;
     time_point line_free_from_;
-    time_point give_up_;                          // when a line that never falls silent is reported
-    time_point sent_until_{};                     // end of the last byte of the last request on the wire
-    std::optional<time_point> unanswered_since_;  // end of the first request that nobody answered
-    time_point heard_{};                          // last byte received
+    time_point give_up_;       // when a line that never falls silent is reported
+    time_point sent_until_{};  // end of the last byte of the last request on the wire
+    unsigned unanswered_ = 0;
+    time_point unanswered_since_{};
+    time_point heard_{};  // last byte received
     unsigned attempts_ = 0;
     std::size_t stray_bytes_ = 0;
     duration response_time_{};

@@ -87,17 +87,11 @@ void run(bus& line, const unique_fd& signals)
     for (;;) {
         line.wait(signals);
         switch (next_signal(signals)) {
-        case SIGUSR1:
-            line.pull_out();
-            break;
-        case SIGUSR2:
-            line.plug_in();
-            break;
+        case SIGUSR1: line.pull_out(); break;
+        case SIGUSR2: line.plug_in(); break;
         case SIGTERM:
-        case SIGINT:
-            return;
-        default:
-            line.forward();
+        case SIGINT: return;
+        default: line.forward();
         }
     }
 }

@@ -35,6 +35,7 @@ private:
 
     device_config config_;
     modbus_registers registers_ = make_registers();
+    std::uint32_t answers_ = 0;
     profile profile_;
     std::chrono::steady_clock::time_point updated_ = std::chrono::steady_clock::now();
     line_server line_;
@@ -78,8 +79,8 @@ void device::answer_line()
         return;
     if (config_.silent)
         line_.serve_without_reply(received, live_registers());
-    else
-        line_.reply(received, live_registers());
+    else if (line_.reply(received, live_registers()))
+        set_long(&registers_->tab_input_registers[answers_address], ++answers_);
 }
 
 modbus_mapping_t& device::live_registers()

@@ -18,17 +18,11 @@ void run(simulated_line& line, const unique_fd& signals)
         ::poll(&waiting, 1, -1);
         switch (const int signal = next_signal(signals)) {
         case SIGTERM:
-        case SIGINT:
-            return;
-        case SIGCHLD:
-            line.report_ended();
-            break;
+        case SIGINT: return;
+        case SIGCHLD: line.report_ended(); break;
         case SIGUSR1:
-        case SIGUSR2:
-            line.signal_bus(signal);
-            break;
-        default:
-            break;
+        case SIGUSR2: line.signal_bus(signal); break;
+        default: break;
         }
     }
 }

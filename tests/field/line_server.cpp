@@ -50,9 +50,9 @@ request line_server::receive()
     return {};
 }
 
-void line_server::reply(request to, modbus_mapping_t& registers)
+bool line_server::reply(request to, modbus_mapping_t& registers)
 {
-    modbus_reply(context_.get(), to.data(), static_cast<int>(to.size()), &registers);
+    return modbus_reply(context_.get(), to.data(), static_cast<int>(to.size()), &registers) > 0;
 }
 
 void line_server::serve_without_reply(request to, modbus_mapping_t& registers)

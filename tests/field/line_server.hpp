@@ -14,7 +14,7 @@ public:
 
     int fd() const { return fd_.get(); }
     request receive();  // call it when bytes wait; empty if they are no request to this unit
-    void reply(request to, modbus_mapping_t& registers);
+    bool reply(request to, modbus_mapping_t& registers);  // false if no answer went out, as to a broadcast
     void serve_without_reply(request to, modbus_mapping_t& registers);  // as if the transmitter were broken
 
 private:

@@ -12,10 +12,7 @@ namespace plcgw::field {
 namespace {
 
 // How far a first-order lag has come towards its target.
-double lag(double seconds, double time_constant)
-{
-    return 1 - std::exp(-seconds / time_constant);
-}
+double lag(double seconds, double time_constant) { return 1 - std::exp(-seconds / time_constant); }
 
 struct plain {
     explicit plain(modbus_mapping_t&) {}

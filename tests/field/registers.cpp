@@ -17,10 +17,7 @@ modbus_registers make_registers()
     return made;
 }
 
-std::uint16_t word(double value)
-{
-    return static_cast<std::uint16_t>(std::clamp(std::lround(value), 0L, 65535L));
-}
+std::uint16_t word(double value) { return static_cast<std::uint16_t>(std::clamp(std::lround(value), 0L, 65535L)); }
 
 void set_long(std::uint16_t* registers, std::uint32_t value)
 {

@@ -9,6 +9,7 @@
 namespace plcgw::field {
 
 inline constexpr int register_count = 1000;  // of each table, from address 0
+inline constexpr int answers_address = 998;  // input registers 998-999 count the requests that were answered
 
 modbus_registers make_registers();
 
