@@ -145,7 +145,7 @@ test_image() {
     check "the images are built" build_images
     label '{{.RepoTags}} {{.Size}} bytes' gateway
     # Functions do not cross unshare: this script goes on in there.
-    cgroup2 unshare --net "$0" run "$work"
+    cgroup2 unshare --net bash "$(realpath "$0")" run "$work"
 }
 
 case ${1-} in

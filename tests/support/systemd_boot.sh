@@ -72,7 +72,7 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 cp -a "$2" "$out/e2e"  # a path without colons, which --bind would take for its own
 status=0
-unshare --mount --propagation private "$0" --inside "$(realpath "$1")" "$out/e2e" "$out" || status=$?
+unshare --mount --propagation private bash "$(realpath "$0")" --inside "$(realpath "$1")" "$out/e2e" "$out" || status=$?
 if [[ -s $out/log ]]; then
     cat "$out/log"
 else
