@@ -20,7 +20,7 @@ demo_packages=("${run_packages[@]}" libmodbus5)
 test_packages=(
     "${build_packages[@]}"
     doctest-dev clang-format clang-tools-14 shellcheck mandoc git
-    mbpoll python3-pymodbus python3-jsonschema socat procps   # other people's software at the other end of every wire
+    mbpoll python3-pymodbus python3-serial-asyncio python3-jsonschema socat procps   # other people's software at the other end of every wire
     systemd systemd-container dbus                            # a service under a real systemd
     podman buildah crun mmdebstrap docker-compose             # the Dockerfile without a Docker engine
 )

@@ -137,7 +137,7 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
         // The answer may belong to the first of the unanswered requests. Then the other answers follow, each at most as
         // late as this one was, also from a device that works them off one by one. They must not meet another question.
         if (of.owed != 0)
-            of.not_before = now + of.owed * std::min(now - of.owed_since, longest_delay) + slack;
+            of.not_before = now + std::min<duration>(of.owed * (now - of.owed_since), longest_delay) + slack;
         of.owed = 0;
     }
     else if (how == outcome::silent) {

@@ -6,7 +6,7 @@ from support import InteropTest, main, route, serial_line, station, wait_for
 
 PERIOD = 0.2
 ROUTES = {"one": 3, "two": 2, "three": 2}  # per device
-MEASURED = 12  # seconds
+MEASURED = 15  # seconds
 TRIES = 3
 
 

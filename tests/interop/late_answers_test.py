@@ -14,7 +14,7 @@ TIMEOUT = 0.3  # seconds
 
 
 class LateAnswersTest(FaultyDeviceTest):
-    def own_values_stay(self, misbehave, retries, seconds=4):
+    def own_values_stay(self, misbehave, retries, seconds=3):
         self.start(response_timeout_ms=int(TIMEOUT * 1000), retries=retries)
         asked = self.device.asked
         self.device.misbehave = misbehave

@@ -25,6 +25,17 @@ class LineFaultsTest(FaultyDeviceTest):
     def test_silence(self):
         self.fails_and_recovers(lambda answer: [], retries=1)
 
+    def test_short_outage_is_over_soon(self):
+        self.start(period_ms=200, response_timeout_ms=TIMEOUT_MS, retries=1)
+        self.device.misbehave = lambda answer: []
+        time.sleep(3)
+        self.device.misbehave = None
+        self.device.offset = 500
+        back = time.monotonic()
+        for name, first in (("pump.low", 500), ("pump.high", 1500)):
+            self.watch.expect(name, quality="good", values=[first, first + 1], seconds=8)
+        print(f"both routes are good after {time.monotonic() - back:.1f} s")
+
     def test_answer_of_a_wrong_unit(self):
         self.fails_and_recovers(lambda answer: [(0, framed(b"\x02" + answer[1:-2]))])
 
