@@ -5,9 +5,9 @@ namespace {
 
 bool is_bits(const plc_block& b) { return plc::is_bit_kind(b.head.kind); }
 
-std::size_t bits_of(const plc_block& b) { return is_bits(b) ? b.count : std::size_t{16} * b.count; }
-
 }  // namespace
+
+std::size_t bits_of(const plc_block& b) { return is_bits(b) ? b.count : std::size_t{16} * b.count; }
 
 bool touches(const plc_block& b, const plc::simulated_plc& plc, const plc::change& changed)
 {

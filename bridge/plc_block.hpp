@@ -15,6 +15,7 @@ struct plc_block {
 };
 
 bool touches(const plc_block& b, const plc::simulated_plc& plc, const plc::change& changed);
-sample sample_of(const plc_block& b, wall_time now);
+std::size_t bits_of(const plc_block& b);
+sample sample_of(const plc_block& b, wall_time now);  // good: what routes say of its devices is the caller's to add
 
 }  // namespace plcgw

@@ -1,15 +1,14 @@
 #include "daemon/gateway.hpp"
 
-#include "bridge/dds/log.hpp"
 #include "daemon/config/program_file.hpp"
+#include "daemon/control_path.hpp"
 #include "daemon/log.hpp"
+#include "daemon/plc_command.hpp"
 #include "daemon/service_notify.hpp"
-#include "daemon/version.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
-#include <boost/asio/ip/host_name.hpp>
-#include <boost/asio/post.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -18,24 +17,13 @@ namespace {
 
 constexpr std::chrono::seconds status_period{1};
 
-modbus::rtu_timing timing_of(const line_config& line, const station_config& station)
+std::string_view cure_of(boost::system::error_code ec)
 {
-    return {.format = {line.baud_rate, line.data_bits, line.check, line.stop_bits},
-            .response_timeout = station.response_timeout.value_or(line.response_timeout),
-            .retries = station.retries.value_or(line.retries),
-            .turnaround = line.turnaround_delay,
-            .gap = line.gap,
-            .silence = line.silence};
-}
-
-std::vector<station> stations_of(const gateway_config& c, const line_config& line)
-{
-    std::vector<station> stations;
-    for (const station_config& each : c.stations)
-        if (each.line == line.name)
-            stations.push_back(
-                {each.name, modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, timing_of(line, each)});
-    return stations;
+    if (ec == boost::system::errc::permission_denied)
+        return "Ports below 1024 need CAP_NET_BIND_SERVICE, which the systemd unit gives, or choose another port";
+    if (ec == boost::system::errc::address_not_available)
+        return "No interface of this host has that address now";
+    return "`ss -ltnp` shows who uses the port";
 }
 
 void log_event(const line_event& event)
@@ -46,43 +34,28 @@ void log_event(const line_event& event)
         log::info("{}", event.text);
 }
 
-void log_dds(dds_log_level level, const std::string& line)
-{
-    if (level == dds_log_level::info)
-        log::info("DDS: {}", line);
-    else
-        log::warning("DDS: {}", line);
-}
-
 }  // namespace
 
-gateway::running_line::running_line(asio::io_context& loop, const line_config& c, std::vector<station> stations,
-                                    gateway& owner)
-    : routes(c.name, std::move(stations), owner.config_.dds.longest_silence),
-      driver(loop, c, routes, [this, &owner] { owner.settle(*this); })
-{
-}
-
 gateway::gateway(asio::io_context& loop, const config::loaded& from)
-    : loop_(loop), config_(from.config), folder_(from.folder), config_hash_(from.hash), started_(wall_now()),
-      second_(loop), watchdog_(loop)
+    : loop_(loop), config_(from.config), started_(wall_now()), dds_(loop, config_, from.hash), second_(loop),
+      watchdog_(loop)
 {
-    make_plcs();
-    make_lines(loop);
-    make_servers(loop);
+    make_plcs(from.folder);
+    make_lines();
+    make_programs(from.folder);
+    make_servers();
     make_blocks();
 }
 
-gateway::~gateway() { set_dds_log({}); }
-
-void gateway::make_plcs()
+void gateway::make_plcs(const std::string& folder)
 {
     for (const plc_config& each : config_.plcs) {
-        const std::string program = config::program_text(each, folder_).value_or("");
+        const std::string program = config::program_text(each, folder).value_or("");
         plcs_.push_back(std::make_unique<plc::simulated_plc>(each.name, *plc::find_model(each.model),
                                                              plc::parse_setup_program(program)));
-        if (const auto& fault = plcs_.back()->fault())
-            log::warning("PLC {}: error 202, detail {}: {}", each.name, fault->detail, fault->reason);
+        for (const plc::setup_fault& fault : plcs_.back()->faults())
+            log::warning("PLC {}: error {} on channel {}, detail {}: {}", each.name, static_cast<unsigned>(fault.code),
+                         fault.channel, fault.what.detail, fault.what.reason);
     }
 }
 
@@ -92,46 +65,68 @@ plc::simulated_plc* gateway::find_plc(const std::string& name)
     return found == plcs_.end() ? nullptr : found->get();
 }
 
-void gateway::make_lines(asio::io_context& loop)
+running_line* gateway::find_line(const std::string& name)
 {
+    const auto found =
+        std::find_if(lines_.begin(), lines_.end(), [&](const auto& each) { return each->routes.name() == name; });
+    return found == lines_.end() ? nullptr : found->get();
+}
+
+void gateway::make_lines()
+{
+    const auto plc = [this](const std::string& name) -> plc::simulated_plc& { return *find_plc(name); };
     for (const line_config& each : config_.lines) {
-        lines_.push_back(std::make_unique<running_line>(loop, each, stations_of(config_, each), *this));
-        add_routes(lines_.size() - 1);
-    }
-}
-
-void gateway::add_routes(std::size_t line_index)
-{
-    std::vector<std::string> stations;
-    for (const station_config& each : config_.stations)
-        if (each.line == config_.lines[line_index].name)
-            stations.push_back(each.name);
-
-    for (const route_config& each : config_.routes) {
-        const auto station = std::find(stations.begin(), stations.end(), each.station);
-        if (station == stations.end())
+        if (each.role == line_role::server) {
+            make_serial_server(each);
             continue;
-        route r;
-        r.name = each.name;
-        r.plc = find_plc(each.plc);
-        r.at = *r.plc->memory().find(*plc::parse_device(each.device));
-        r.table = each.table;
-        r.first = modbus::address{static_cast<std::uint16_t>(each.first)};
-        r.count = static_cast<std::uint16_t>(each.count);
-        r.way = each.way;
-        lines_[line_index]->routes.add_route(std::move(r), static_cast<std::size_t>(station - stations.begin()),
-                                             each.period);
+        }
+        const std::size_t index = lines_.size();
+        lines_.push_back(
+            std::make_unique<running_line>(loop_, config_, each, plc, [this, index] { settle(*lines_[index]); }));
     }
 }
 
-void gateway::make_servers(asio::io_context& loop)
+void gateway::make_serial_server(const line_config& line)
+{
+    std::vector<modbus_station> stations;
+    for (const unit_config& each : line.units)
+        stations.emplace_back(*find_plc(each.plc), modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, each.channel);
+    serial_servers_.push_back(
+        std::make_unique<serial_server>(loop_, line, std::move(stations), [this] { settle_memory(); }));
+}
+
+void gateway::make_programs(const std::string& folder)
+{
+    for (const plc_config& each : config_.plcs) {
+        const std::string text = config::program_text(each, folder).value_or("");
+        for (const channel_config& channel : each.channels) {
+            running_line& line = *find_line(channel.line);
+            programs_.push_back(std::make_unique<plc_program>(
+                loop_, plc::adprw_runner(plc::parse_adprw_program(text), *find_plc(each.name), channel.channel),
+                line.gate, timing_of(line.config), [this] { settle_memory(); }));
+        }
+    }
+}
+
+unit_target gateway::target_of(const unit_config& unit)
+{
+    unit_target to;
+    to.plc = find_plc(unit.plc);
+    if (running_line* const line = find_line(unit.line))
+        to.line = &line->gate;
+    to.unit = modbus::unit_id{static_cast<std::uint8_t>(unit.line_unit == 0 ? unit.unit : unit.line_unit)};
+    return to;
+}
+
+void gateway::make_servers()
 {
     for (const tcp_server_config& each : config_.modbus_tcp) {
         unit_table units;
-        units.fill(find_plc(each.other_units));
+        for (unsigned unit = 0; unit < units.size(); ++unit)
+            units[unit] = target_of({.unit = unit, .plc = each.other_units, .line = each.other_units});
         for (const unit_config& unit : each.units)
-            units[unit.unit] = find_plc(unit.plc);
-        servers_.push_back(std::make_unique<tcp_server>(loop, each, units, [this] { settle_memory(); }));
+            units[unit.unit] = target_of(unit);
+        servers_.push_back(std::make_unique<tcp_server>(loop_, each, units, [this] { settle_memory(); }));
     }
 }
 
@@ -150,61 +145,108 @@ void gateway::make_blocks()
 
 bool gateway::start()
 {
-    for (const auto& server : servers_) {
-        if (const auto ec = server->listen()) {
-            log::error("MODBUS TCP cannot listen on {}: {}. `ss -ltnp` shows who does", server->endpoint(),
-                       ec.message());
-            return false;
-        }
-        log::info("MODBUS TCP listens on {}", server->endpoint());
-        asio::co_spawn(loop_, server->accept_clients(), asio::detached);
-    }
+    if (!listen())
+        return false;
+    start_control();
     for (const auto& line : lines_)
-        asio::co_spawn(loop_, line->driver.run(), asio::detached);
-    if (config_.dds.settings.enabled) {
-        set_dds_log([&loop = loop_](dds_log_level level, const std::string& line) {
-            asio::post(loop, [level, line] { log_dds(level, line); });
-        });
-        open_dds();
-    }
-    asio::co_spawn(loop_, keep_dds(), asio::detached);
+        asio::co_spawn(loop_, line->driver->run(), asio::detached);
+    for (const auto& server : serial_servers_)
+        asio::co_spawn(loop_, server->run(), asio::detached);
+    for (const auto& program : programs_)
+        asio::co_spawn(loop_, program->run(), asio::detached);
+    asio::co_spawn(loop_, every_second(), asio::detached);
     if (const auto period = service::watchdog_period())
         asio::co_spawn(loop_, keep_watchdog(*period), asio::detached);
     service::ready();
     return true;
 }
 
+bool gateway::listen()
+{
+    for (const auto& server : servers_) {
+        if (const auto ec = server->listen()) {
+            log::error("MODBUS TCP cannot listen on {}: {}. {}", server->endpoint(), ec.message(), cure_of(ec));
+            return false;
+        }
+        log::info("MODBUS TCP listens on {}", server->endpoint());
+        asio::co_spawn(loop_, server->accept_clients(), asio::detached);
+    }
+    return true;
+}
+
+// Without it the gateway does its work all the same.
+void gateway::start_control()
+{
+    control_.emplace(loop_, control_socket(config_.control.socket),
+                     [this](const nlohmann::json& what) { return command(what); });
+    if (const auto ec = control_->listen())
+        log::warning("commands: cannot listen on {}: {}", control_->path().string(), ec.message());
+    else
+        asio::co_spawn(loop_, control_->accept_clients(), asio::detached);
+}
+
+nlohmann::json gateway::command(const nlohmann::json& what)
+{
+    nlohmann::json reply = plc_command(plcs_, what);
+    settle_memory();
+    return reply;
+}
+
 void gateway::settle(running_line& line)
 {
     for (const line_event& event : line.routes.take_events())
         log_event(event);
+    line.gate.deliver();
     settle_memory();
-    for (const sample& each : line.routes.take_samples(now()))
-        if (publisher_)
-            publisher_->publish(each);
+    const std::vector<sample> samples = line.routes.take_samples(now());
+    for (const sample& each : samples)
+        dds_.publish(each);
+    if (samples.empty())
+        return;
+    for (running_block& block : blocks_)  // a route's quality is that of the block over its devices, too
+        block.changed = block.changed || sample_now(block).state != block.said;
+    publish_blocks();
 }
 
 void gateway::settle_memory()
 {
+    const bool changed_any =
+        std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->memory().has_changes(); });
     for (const auto& plc : plcs_) {
         for (const plc::change& changed : plc->memory().take_changes()) {
             for (const auto& line : lines_)
                 if (line->routes.memory_changed(*plc, changed))
-                    line->driver.wake();
+                    line->driver->wake();
             for (running_block& block : blocks_)
                 block.changed = block.changed || touches(block.content, *plc, changed);
         }
     }
+    if (!changed_any)
+        return;
+    for (const auto& program : programs_)
+        program->look();
     publish_blocks();
 }
 
 void gateway::publish_blocks()
 {
-    if (!publisher_)
+    if (!dds_.is_open())
         return;
-    for (running_block& block : blocks_)
-        if (std::exchange(block.changed, false))
-            publisher_->publish(sample_of(block.content, wall_now()));
+    for (running_block& block : blocks_) {
+        if (!std::exchange(block.changed, false))
+            continue;
+        const sample now_in_it = sample_now(block);
+        block.said = now_in_it.state;
+        dds_.publish(now_in_it);
+    }
+}
+
+sample gateway::sample_now(const running_block& block) const
+{
+    sample made = sample_of(block.content, wall_now());
+    for (const auto& line : lines_)
+        line->routes.worsen(made, *block.content.plc, block.content.at, bits_of(block.content));
+    return made;
 }
 
 void gateway::publish_everything()
@@ -215,32 +257,15 @@ void gateway::publish_everything()
     for (const auto& line : lines_) {
         line->routes.say_everything();
         for (const sample& each : line->routes.take_samples(now()))
-            publisher_->publish(each);
+            dds_.publish(each);
     }
 }
 
-bool gateway::open_dds()
-{
-    const std::string member = config_.dds.member.empty() ? asio::ip::host_name() : config_.dds.member;
-    auto made = dds_publisher::create(config_.dds.settings, {config_.gateway, member, version, config_hash_});
-    if (!made) {
-        if (!std::exchange(dds_failed_, true))
-            log::warning("DDS: {}. It is tried again until it works", made.error().text);
-        return false;
-    }
-    dds_failed_ = false;
-    publisher_.emplace(std::move(*made));
-    log::info("DDS publishes on domain {}, interface {}", config_.dds.settings.domain,
-              config_.dds.settings.interface.empty() ? "of Cyclone's choice" : config_.dds.settings.interface);
-    publish_everything();
-    return true;
-}
-
-asio::awaitable<void> gateway::keep_dds()
+asio::awaitable<void> gateway::every_second()
 {
     for (;;) {
-        if (config_.dds.settings.enabled && !publisher_)
-            open_dds();
+        if (dds_.open())
+            publish_everything();
         show_status();
         second_.expires_after(status_period);
         co_await second_.async_wait(no_throw);
@@ -255,8 +280,7 @@ void gateway::show_status()
         status.routes_up += static_cast<std::uint32_t>(line->routes.routes_up());
         status.routes_total += static_cast<std::uint32_t>(line->routes.routes_total());
     }
-    if (publisher_)
-        publisher_->publish(status);
+    dds_.publish(status);
     const std::string text = fmt::format("{} of {} routes up", status.routes_up, status.routes_total);
     if (text != shown_status_)
         service::status(shown_status_ = text);

@@ -1,6 +1,9 @@
 // The command line.
 #include "daemon/config/read.hpp"
 #include "daemon/config/schema.hpp"
+#include "daemon/link_time_command.hpp"
+#include "daemon/map_command.hpp"
+#include "daemon/plc_command.hpp"
 #include "daemon/run.hpp"
 #include "daemon/version.hpp"
 #include "daemon/watch.hpp"
@@ -53,6 +56,43 @@ struct watch_arguments {
     }
 };
 
+void add_map(CLI::App& command, plcgw::map_options& o)
+{
+    CLI::Option* const config = command.add_option("-c,--config", o.config_file, "Configuration file");
+    config->capture_default_str();
+    CLI::Option* const plc = command.add_option("-p,--plc", o.plc, "Name of the PLC; none: all of the configuration");
+    command.add_option("-m,--model", o.model, "The default map of this model, without a configuration")
+        ->excludes(config)
+        ->excludes(plc);
+    command.add_option("queries", o.queries,
+                       "Devices (D8015, X17), numbers (hr:0, coil:0x1E00, ir:, di:) or references "
+                       "(40001, 400001); none: the whole map");
+}
+
+void add_link_time(CLI::App& command, plcgw::link_time_options& o)
+{
+    const CLI::Range milliseconds(0.0, 32767.0);
+    const CLI::Range bytes(1, 513);
+    command.add_option("--baud", o.baud_rate, "Bits per second")->check(CLI::PositiveNumber)->capture_default_str();
+    command.add_option("--bits", o.bits, "Data bits, parity, stop bits")->capture_default_str();
+    command.add_option("--framing", o.framing, "Frame mode")
+        ->check(CLI::IsMember({"rtu", "ascii"}))
+        ->capture_default_str();
+    command.add_option("--function", o.function, "Function code, 16 or 0x10")->capture_default_str();
+    command.add_option("--count", o.count, "Items read or written")->capture_default_str();
+    command.add_option("--write-count", o.write_count, "Registers that function 0x17 writes")->capture_default_str();
+    command.add_option("--delay", o.delay_ms, "Message to message delay D8411, ms")
+        ->check(milliseconds)
+        ->capture_default_str();
+    command.add_option("--scan", o.scan_ms, "Longest scan time, ms")->check(milliseconds)->capture_default_str();
+    command.add_option("--slave-delay,--server-delay", o.server_delay_ms, "Until the server answers, ms")
+        ->check(milliseconds)
+        ->capture_default_str();
+    command.add_option("--request", o.request_bytes, "Bytes of the request, instead of function and count")
+        ->check(bytes);
+    command.add_option("--response", o.response_bytes, "Bytes of the response, likewise")->check(bytes);
+}
+
 int run_command(int argc, char** argv)
 {
     CLI::App app{"Serial devices as the memory of a simulated PLC, for MODBUS TCP and DDS", "plc-gateway"};
@@ -71,6 +111,22 @@ int run_command(int argc, char** argv)
     CLI::App* const watch = app.add_subcommand("watch", "Show live registers, received by DDS");
     watched.add_to(*watch);
 
+    plcgw::map_options mapped;
+    CLI::App* const map = app.add_subcommand("map", "Show which device stands behind which MODBUS number");
+    add_map(*map, mapped);
+
+    plcgw::link_time_options timed;
+    CLI::App* const link_time = app.add_subcommand("linktime", "How long one question takes between two PLCs");
+    add_link_time(*link_time, timed);
+
+    std::string plc_action = "list";
+    std::string plc_name;
+    std::string socket;
+    CLI::App* const plc = app.add_subcommand("plc", "Show the simulated PLCs of the running gateway, or switch one");
+    plc->add_option("action", plc_action, "list, run, stop or power-cycle")->capture_default_str();
+    plc->add_option("name", plc_name, "Name of the PLC");
+    plc->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
+
     const CLI::App* const schema = app.add_subcommand("schema", "Print the JSON Schema of the configuration");
 
     try {
@@ -85,6 +141,12 @@ int run_command(int argc, char** argv)
         return plcgw::check(checked_file);
     if (*watch)
         return watched.run();
+    if (*plc)
+        return plcgw::plc_client(socket, plc_action, plc_name);
+    if (*map)
+        return plcgw::show_map(mapped);
+    if (*link_time)
+        return plcgw::show_link_time(timed);
     if (*schema)
         std::cout << plcgw::config::schema();
     return 0;

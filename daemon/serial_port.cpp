@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <linux/serial.h>
+#include <sys/file.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -67,7 +68,8 @@ boost::system::result<int> open_serial_port(const line_config& line, std::string
     if (fd < 0)
         return last_error();
     boost::system::error_code failed = set_character_format(fd, line);
-    if (!failed && ::ioctl(fd, TIOCEXCL) != 0)  // a second opener gets EBUSY
+    // TIOCEXCL refuses other users, the lock refuses a second gateway of root.
+    if (!failed && (::flock(fd, LOCK_EX | LOCK_NB) != 0 || ::ioctl(fd, TIOCEXCL) != 0))
         failed = last_error();
     if (failed) {
         ::close(fd);
@@ -77,5 +79,7 @@ boost::system::result<int> open_serial_port(const line_config& line, std::string
     ::ioctl(fd, TCFLSH, TCIOFLUSH);  // what an earlier user left behind is no answer to us
     return fd;
 }
+
+void forget_output(int fd) { ::ioctl(fd, TCFLSH, TCOFLUSH); }
 
 }  // namespace plcgw

@@ -14,4 +14,7 @@ namespace plcgw {
 // A pty keeps no parity and knows no RS-485.
 boost::system::result<int> open_serial_port(const line_config& line, std::string& warning);
 
+// Before closing: the kernel would wait for output that a hung adapter does not take, up to 30 s.
+void forget_output(int fd);
+
 }  // namespace plcgw

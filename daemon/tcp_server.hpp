@@ -3,20 +3,16 @@
 
 #include "bridge/services/modbus_service.hpp"
 #include "daemon/config/config.hpp"
-#include "daemon/read_before.hpp"
+#include "daemon/unit_table.hpp"
 #include "protocols/modbus/mbap.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 
-#include <array>
 #include <functional>
 #include <memory>
 
 namespace plcgw {
-
-// Which PLC answers a unit id; null: exception 0A, there is no path to it.
-using unit_table = std::array<plc::simulated_plc*, 256>;
 
 class tcp_server {
 public:
@@ -29,8 +25,13 @@ public:
     std::string endpoint() const;  // "127.0.0.1:1502", for the log
 
 private:
+    struct session;
+
     asio::awaitable<void> serve(asio::ip::tcp::socket client, std::string peer, std::shared_ptr<void> place);
-    bool answer(modbus::mbap_framer& in, buffer& replies);
+    asio::awaitable<bool> answer(session& s);
+    asio::awaitable<bool> write_replies(session& s);
+    asio::awaitable<buffer> forward(const unit_target& to, bytes pdu);
+    bool may_complain();
     std::shared_ptr<void> take_place();  // null when there are max_clients already
 
     tcp_server_config config_;
@@ -39,7 +40,10 @@ private:
     asio::ip::tcp::acceptor acceptor_;
     asio::steady_timer pause_;
     std::shared_ptr<unsigned> clients_ = std::make_shared<unsigned>(0);  // outlives the server in suspended sessions
+    duration idle_timeout_;
     bool refusing_ = false;
+    time_point complaints_since_{};
+    unsigned complaints_ = 0;
 };
 
 }  // namespace plcgw

@@ -14,8 +14,12 @@ public:
         case errc::bad_checksum: return "bad checksum";
         case errc::bad_header: return "not a frame of this protocol";
         case errc::incomplete: return "incomplete frame";
+        case errc::too_short: return "too short for a frame";
+        case errc::overlong: return "longer than any frame";
+        case errc::bad_character: return "character that is no hexadecimal digit";
         case errc::timed_out: return "no answer";
         case errc::unexpected_answer: return "answer does not fit the question";
+        case errc::collision: return "own request came back changed";
         case errc::line_not_quiet: return "line not quiet";
         case errc::port_absent: return "port absent";
         }

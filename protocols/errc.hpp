@@ -12,8 +12,12 @@ enum class errc {
     bad_checksum = 1,   // CRC, LRC or BCC does not match the frame
     bad_header,         // the bytes cannot begin a frame of this protocol
     incomplete,         // the line fell silent in the middle of a frame
+    too_short,          // the line fell silent after fewer characters than any frame has
+    overlong,           // more characters than any frame has
+    bad_character,      // ASCII: neither a hexadecimal digit nor the end of the frame
     timed_out,          // no byte of an answer came within the response timeout
     unexpected_answer,  // a whole frame came, but it does not fit the question
+    collision,          // our own bytes came back from the line changed
     line_not_quiet,     // somebody else kept talking when it was our turn
     port_absent,        // the serial port is not there, or was unplugged during the exchange
 };

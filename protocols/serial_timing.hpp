@@ -10,6 +10,13 @@ namespace plcgw {
 
 enum class parity : std::uint8_t { none, odd, even };
 
+// Two-wire adapters may return what they send.
+enum class local_echo : std::uint8_t {
+    off,
+    on,         // the request comes back first and is removed
+    automatic,  // removed where it cannot be the answer: that of functions 05, 06 and 08 has the same bytes
+};
+
 struct character_format {
     unsigned baud_rate = 19200;  // bits per second
     unsigned data_bits = 8;      // 5 to 8

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bridge/plc/device.hpp"
+#include "bridge/plc/special_registers.hpp"
 #include "protocols/modbus/types.hpp"
 
 #include <span>
@@ -16,6 +17,7 @@ struct area {
     std::uint32_t first;            // number of the first device
     std::uint32_t count;            // devices
     std::uint32_t bits_per_device;  // 1, 16 or 32
+    std::uint32_t absent = 0;       // the first so many do not exist: they fill up a register of bit devices
 };
 
 // A run of MODBUS numbers and the devices behind it (FX3 manual 9.3). In a register table a bit area takes one register
@@ -27,15 +29,41 @@ struct map_row {
     device head;          // behind the first of them
 };
 
+enum class error_style : std::uint8_t {
+    fx3,  // 201 to 218 and a register for details (FX3 manual 12.6)
+    ls,   // 2xxyy, 3xxyy, 4xxyy, 218x: code and details in one (LS manual 9-6)
+};
+
+enum class format_style : std::uint8_t {
+    fx3,  // format and protocol in two registers: D8400 and D8401
+    ls,   // both in one
+};
+
+// Names of timers and counters: contacts TS, CS and values TN, CN, or T and C for both.
+enum class timer_names : std::uint8_t { contact_and_value, plain };
+
+enum class transport : std::uint8_t { serial, tcp };
+
 struct model {
     std::string_view name;  // "FX3U"
     std::span<const area> areas;
     std::span<const map_row> standard_map;
-    std::span<const modbus::function> functions;  // that a server answers
-    bool user_defined_map;                        // D8470-D8485 exist (FX3 manual 9.4)
+    std::span<const modbus::function> functions;         // that a server answers over TCP
+    bool user_defined_map;                               // D8470-D8485 exist (FX3 manual 9.4)
+    std::span<const modbus::function> serial_functions;  // that a server answers on a serial line, and a client asks
+    std::span<const channel> channels;
+    bool one_channel;  // of all channels only the first that is set to MODBUS operates (FX3 manual 6.1, D8401)
+    bool ascii;        // besides RTU, and 7 data bits with it
+    error_style errors;
+    format_style format;
+    timer_names timers;
 };
 
 inline constexpr std::uint32_t special_first = 8000;  // M8000 and D8000: the system's own devices
+
+bool answers(const model& m, modbus::function f, transport over);
+
+bool exists(const model& m, device d);
 
 const model* find_model(std::string_view name);  // upper or lower case; null when there is none
 std::span<const model* const> all_models();

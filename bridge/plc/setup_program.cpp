@@ -3,8 +3,6 @@
 #include "bridge/plc/device.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
 
 namespace plcgw::plc {
 namespace {
@@ -35,63 +33,31 @@ bool is_settable(std::uint32_t number)
                        [&](const auto& range) { return number >= range[0] && number <= range[1]; });
 }
 
-std::vector<std::string> words_of(std::string_view line)
-{
-    line = line.substr(0, std::min(line.find(';'), line.find("//")));
-    std::vector<std::string> words;
-    std::string word;
-    for (const char c : std::string(line) + ' ') {
-        if (std::isspace(static_cast<unsigned char>(c)) == 0 && c != ',') {
-            word += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-        }
-        else if (!word.empty()) {
-            words.push_back(std::move(word));
-            word.clear();
-        }
-    }
-    const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-    if (!words.empty() && std::all_of(words[0].begin(), words[0].end(), is_digit))
-        words.erase(words.begin());  // step number, as GX Works2 prints it
-    return words;
-}
-
-// K-32768 to K65535, H0 to HFFFF.
-std::optional<std::uint16_t> parse_constant(std::string_view text)
-{
-    if (text.size() < 2 || (text[0] != 'K' && text[0] != 'H'))
-        return std::nullopt;
-    std::int32_t value = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data() + 1, end, value, text[0] == 'K' ? 10 : 16);
-    const std::int32_t least = text[0] == 'K' ? -32768 : 0;
-    if (error != std::errc{} || stop != end || value < least || value > 65535)
-        return std::nullopt;
-    return static_cast<std::uint16_t>(value);
-}
-
 class parser {
 public:
     void take(std::size_t line, const std::vector<std::string>& words)
     {
-        if (words.empty())
-            return;
         const std::string& instruction = words[0];
         if (instruction == "LD")
             load(line, words);
         else if (instruction == "MOV")
             move(line, words);
+        else if (instruction == "LDI" || instruction == "LDP" || instruction == "LDF")
+            other_contact(line, words);
+        else if (instruction == "ADPRW" || instruction == "ADPRWP")
+            adprw();
         else if (instruction == "END")
             in_block_ = false;
         else if (instruction == "AND" || instruction == "ANI" || instruction == "OR" || instruction == "ORI" ||
-                 instruction == "LDI" || instruction == "OUT" || instruction == "SET" || instruction == "RST")
+                 instruction == "OUT" || instruction == "SET" || instruction == "RST")
             contact_or_coil(line, words);
         else
-            mistake(line, "unknown instruction \"" + instruction + "\": a setup program holds LD, MOV and END");
+            mistake(line, "unknown instruction \"" + instruction + "\": a program holds LD, MOV, ADPRW and END");
     }
 
     setup_program result()
     {
-        if (!saw_block_ && program_.mistakes.empty() && saw_move_)
+        if (!saw_block_ && program_.mistakes.empty() && saw_move_ && !saw_adprw_)
             mistake(1, "no LD M8411: the MOVs of a setup program stand below it");
         return std::move(program_);
     }
@@ -104,11 +70,13 @@ private:
             return;
         }
         in_block_ = *parse_device(words[1]) == device{device_kind::m, configuration_request};
+        below_contact_ = true;
+        doubt_.reset();
         if (!in_block_)
             return;
         // With two blocks only the last counts (5.4, caution 3): forget what the one before said.
         saw_block_ = true;
-        void_ = false;
+        program_.is_void = false;
         program_.registers.clear();
         program_.lines.clear();
         program_.fault.reset();
@@ -123,9 +91,17 @@ private:
             return;
         }
         if (!in_block_) {
-            if (saw_block_)
+            if (saw_block_ || below_contact_)
                 return;  // ordinary program below another contact: not ours
             mistake(line, "MOV stands above LD M8411");
+            return;
+        }
+        if (doubt_ && (to->kind != device_kind::d || !is_settable(to->number))) {
+            in_block_ = false;  // the contact has begun an ordinary rung
+            return;
+        }
+        if (doubt_) {
+            make_void(doubt_->line, between(doubt_->text));
             return;
         }
         const auto value = parse_constant(words[1]);
@@ -146,7 +122,7 @@ private:
 
     void set(std::size_t line, std::uint32_t number, std::uint16_t value)
     {
-        if (void_)
+        if (program_.is_void)
             return;
         const auto rule = std::find_if(std::begin(rules), std::end(rules),
                                        [&](const register_rule& r) { return r.number == number; });
@@ -164,9 +140,32 @@ private:
     {
         if (words.size() < 2 || !parse_device(words[1]))
             mistake(line, words[0] + " takes a device");
-        else if (in_block_)
-            make_void(line, words[0] + " " + words[1] +
-                                " between LD M8411 and its MOVs: the whole block is void (5.4, caution 3)");
+        else if (in_block_ && !doubt_)
+            make_void(line, between(words[0] + " " + words[1]));
+    }
+
+    // They begin a rung as LD does. Whether an LDI stands between the MOVs is known at the next one.
+    void other_contact(std::size_t line, const std::vector<std::string>& words)
+    {
+        below_contact_ = true;
+        if (words.size() < 2 || !parse_device(words[1]))
+            mistake(line, words[0] + " takes a device");
+        else if (words[0] != "LDI")
+            in_block_ = false;
+        else if (in_block_ && !doubt_)
+            doubt_ = program_mistake{line, words[0] + " " + words[1]};
+    }
+
+    void adprw()
+    {
+        saw_adprw_ = true;
+        if (doubt_)
+            in_block_ = false;
+    }
+
+    static std::string between(const std::string& what)
+    {
+        return what + " between LD M8411 and its MOVs: the whole block is void (5.4, caution 3)";
     }
 
     void make_void(std::size_t line, std::string reason)
@@ -174,7 +173,7 @@ private:
         program_.registers.clear();
         program_.lines.clear();
         program_.fault.reset();
-        void_ = true;
+        program_.is_void = true;
         fault(line, configuration_request, std::move(reason));
     }
 
@@ -190,7 +189,9 @@ private:
     bool in_block_ = false;
     bool saw_block_ = false;
     bool saw_move_ = false;
-    bool void_ = false;
+    bool saw_adprw_ = false;
+    bool below_contact_ = false;
+    std::optional<program_mistake> doubt_;  // an LDI that may stand between LD M8411 and its MOVs
 };
 
 }  // namespace
@@ -198,11 +199,8 @@ private:
 setup_program parse_setup_program(std::string_view text)
 {
     parser p;
-    for (std::size_t line = 1; !text.empty(); ++line) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        p.take(line, words_of(text.substr(0, end)));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
+    for (const program_line& each : program_lines(text))
+        p.take(each.line, each.words);
     return p.result();
 }
 

@@ -1,59 +1,160 @@
 #include "bridge/plc/simulated_plc.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 namespace plcgw::plc {
 namespace {
 
-// FX3 manual 12.5 and 12.6, channel 1.
-constexpr std::uint16_t modbus_error_in_d8063 = 6321;
-constexpr std::uint16_t invalid_parameter_setup = 202;
+constexpr std::uint32_t normally_on_in_run = 8000;
+constexpr std::uint32_t normally_off_in_run = 8001;
+constexpr std::uint16_t line_feed = 0x0A;
+
+void clear(memory& of, std::optional<place> first, std::size_t registers)
+{
+    for (std::size_t i = 0; first && i < registers; ++i)
+        of.set_word({first->area, first->bit + 16 * i}, 0);
+}
 
 }  // namespace
 
 simulated_plc::simulated_plc(std::string name, const plc::model& m, setup_program program)
-    : name_(std::move(name)), program_(std::move(program)), memory_(m), map_(modbus_map::standard(m))
+    : name_(std::move(name)), program_(std::move(program)), memory_(m)
 {
+    power_on();
+}
+
+void simulated_plc::power_cycle()
+{
+    clear_devices();
     power_on();
 }
 
 void simulated_plc::power_on()
 {
-    allocation sets{};
-    for (const auto& [number, value] : program_.registers)
-        if (number >= allocation_first)
-            sets[number - allocation_first] = value;
+    ++power_ons_;
+    ++starts_;
+    setup_ = check_setup(memory_, program_);
+    for (const auto& [number, value] : setup_.registers)
+        show_register(number, value);
+    for (const auto& [channel, as] : attached_)
+        attach(channel, as);
+    for (const channel_state& each : setup_.channels)
+        show_channel(each);
+    show_state();
 
-    if (model().user_defined_map) {
-        std::optional<allocation_fault> invalid;
-        map_ = modbus_map::user_defined(model(), sets, invalid);
-        if (invalid && !program_.fault) {
-            const auto at = program_.lines.find(invalid->detail);
-            program_.fault = parameter_fault{invalid->detail, at == program_.lines.end() ? 0 : at->second,
-                                             std::move(invalid->reason)};
-        }
-    }
-    for (const auto& [number, value] : program_.registers)
-        set_special(device_kind::d, number, number >= allocation_first ? sets[number - allocation_first] : value);
-
-    set_special(device_kind::m, 8000, 1);  // RUN monitor, normally on
-    if (program_.fault) {
-        set_special(device_kind::m, 8063, 1);
-        set_special(device_kind::d, 8063, modbus_error_in_d8063);
-        set_special(device_kind::m, 8402, 1);
-        set_special(device_kind::m, 8403, 1);
-        set_special(device_kind::d, 8402, invalid_parameter_setup);
-        set_special(device_kind::d, 8403, static_cast<std::uint16_t>(program_.fault->detail));
+    fault_.reset();
+    for (auto each = setup_.faults.rbegin(); each != setup_.faults.rend(); ++each) {  // the first one stays
+        show_error(each->channel, each->code, static_cast<std::uint16_t>(each->what.detail));
+        if (each->code == modbus_error::invalid_parameter)
+            fault_ = each->what;
     }
 }
 
-void simulated_plc::set_special(device_kind kind, std::uint32_t number, std::uint16_t value)
+void simulated_plc::run()
 {
-    const auto at = memory_.find({kind, number});
-    if (!at)
-        return;  // this model has no such register
-    if (is_bit_kind(kind))
-        memory_.set_bit(*at, value != 0);
-    else
+    if (state_ == run_state::run)
+        return;
+    state_ = run_state::run;
+    ++starts_;
+    show_state();
+    for (const channel_state& each : setup_.channels) {
+        const channel_registers& r = each.row->registers;
+        const channel_flags& f = each.row->flags;
+        for (const std::uint32_t number : {r.error_step, r.executing_step, r.retry_value})
+            show_register(number, 0);
+        for (const std::uint32_t number :
+             {f.completed, f.busy, f.error, f.error_latched, f.serial_error, f.retrying, f.timeout})
+            show_flag(number, false);
+        if (each.as == role::client || model().errors == error_style::ls) {
+            show_register(r.error_code, 0);
+            show_register(r.error_detail, 0);
+        }
+        clear(memory_, each.status.counters, counter_registers);
+        clear(memory_, each.status.log, log_registers);
+    }
+}
+
+void simulated_plc::stop()
+{
+    state_ = run_state::stop;
+    show_state();
+}
+
+const channel_state& simulated_plc::channel_at(unsigned number) const
+{
+    for (const channel_state& each : setup_.channels)
+        if (each.row->number == number)
+            return each;
+    throw std::out_of_range(name_ + " has no MODBUS channel " + std::to_string(number));
+}
+
+void simulated_plc::attach(unsigned channel, role as)
+{
+    const auto index = &channel_at(channel) - setup_.channels.data();
+    channel_state& state = setup_.channels[static_cast<std::size_t>(index)];
+    attached_[channel] = as;
+    state.as = as;
+    if (as == role::client)
+        state.status.log.reset();
+    show_channel(state);
+}
+
+void simulated_plc::show_error(unsigned channel, modbus_error code, std::uint16_t detail)
+{
+    const plc::channel& row = *channel_at(channel).row;
+    if (!exists(code, model().errors))
+        return;
+    show_register(row.registers.error_code, static_cast<std::uint16_t>(code));
+    show_register(row.registers.error_detail, detail);
+    show_register(row.registers.serial_error, row.serial_error_value);
+    for (const std::uint32_t number : {row.flags.error, row.flags.error_latched, row.flags.serial_error})
+        show_flag(number, true);
+}
+
+void simulated_plc::show_register(std::uint32_t number, std::uint16_t value)
+{
+    if (const auto at = memory_.find({device_kind::d, number}); at && number != 0)
         memory_.set_word(*at, value);
+}
+
+void simulated_plc::show_flag(std::uint32_t number, bool on)
+{
+    if (const auto at = memory_.find({device_kind::m, number}); at && number != 0)
+        memory_.set_bit(*at, on);
+}
+
+bool simulated_plc::flag(std::uint32_t number) const
+{
+    const auto at = memory_.find({device_kind::m, number});
+    return at && number != 0 && memory_.bit(*at);
+}
+
+// Word by word, so that everybody who follows the memory's changes sees it.
+void simulated_plc::clear_devices()
+{
+    for (std::size_t i = 0; i < model().areas.size(); ++i)
+        clear(memory_, place{i, 0}, (memory_.bits_from({i, 0}) + 15) / 16);
+}
+
+void simulated_plc::show_state()
+{
+    show_flag(normally_on_in_run, state_ == run_state::run);
+    show_flag(normally_off_in_run, state_ == run_state::stop);
+}
+
+// D8405, D8406 and D8419. The delimiter is the program's to choose in a client only.
+void simulated_plc::show_channel(const channel_state& c)
+{
+    const channel_registers& r = c.row->registers;
+    const bool in_use = c.as && c.operates;
+    const auto set = [&](std::uint32_t number, std::uint16_t initially) {
+        const auto found = setup_.registers.find(number);
+        return found == setup_.registers.end() ? initially : found->second;
+    };
+    show_register(r.mode, in_use ? mode_modbus : std::uint16_t{0});
+    show_register(r.format_display, in_use ? set(r.format, 0) : std::uint16_t{0});
+    show_register(r.delimiter, c.as == role::client ? set(r.delimiter, line_feed) : line_feed);
 }
 
 }  // namespace plcgw::plc

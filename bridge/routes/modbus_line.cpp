@@ -6,6 +6,14 @@ namespace plcgw {
 namespace {
 
 constexpr int periods_until_stale = 3;
+constexpr duration least_longest_delay = std::chrono::seconds(5);
+constexpr duration refused_write_pause = std::chrono::seconds(1);
+
+// Exceptions that say "not now" rather than "never".
+bool may_pass(modbus::exception_code code)
+{
+    return code == modbus::exception_code::acknowledge || code == modbus::exception_code::server_device_busy;
+}
 
 std::string exception_text(modbus::exception_code code)
 {
@@ -17,10 +25,15 @@ std::string exception_text(modbus::exception_code code)
 
 }  // namespace
 
-modbus_line::modbus_line(std::string name, std::vector<station> stations, duration longest_silence)
-    : name_(std::move(name)), stations_(std::move(stations)), schedule_(stations_.size()),
+modbus_line::modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
+                         const modbus::rtu_timing& timing)
+    : name_(std::move(name)), stations_(std::move(stations)), schedule_(stations_.size()), timing_(timing),
       longest_silence_(longest_silence)
 {
+    for (std::size_t i = 0; i < stations_.size(); ++i) {
+        const modbus::rtu_timing& each = stations_[i].timing;
+        schedule_.set_longest_delay(i, std::max(least_longest_delay, (each.retries + 2) * each.response_timeout));
+    }
 }
 
 void modbus_line::add_route(route r, std::size_t station, duration period)
@@ -36,7 +49,52 @@ void modbus_line::add_route(route r, std::size_t station, duration period)
     added.period = period;
 }
 
+std::optional<forward_ticket> modbus_line::forward(modbus::unit_id unit, modbus::request request,
+                                                   std::optional<modbus::rtu_timing> timing)
+{
+    const auto ticket = forwards_.add(unit, std::move(request), std::move(timing));
+    if (!port_open_)
+        forwards_.answer_all(errc::port_absent);
+    return ticket;
+}
+
+// Forwarded requests and routes take turns when both want the line.
 std::optional<modbus_line::question> modbus_line::next(time_point now)
+{
+    std::optional<question> chosen;
+    if (!forwarded_last_)
+        chosen = next_forward(now);
+    if (!chosen)
+        chosen = next_poll(now);
+    if (!chosen)
+        chosen = next_forward(now);
+    forwarded_last_ = chosen && std::holds_alternative<forward_ticket>(chosen->origin);
+    return chosen;
+}
+
+std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
+{
+    while (!forwards_.empty()) {
+        forward_request first = forwards_.take();
+        const station* const of = find(first.unit);
+        if (of != nullptr && schedule_.state_of(static_cast<std::size_t>(of - stations_.data())) == health::down) {
+            forwards_.answer(first.ticket, make_error_code(errc::timed_out));  // at once: the line is for the living
+            continue;
+        }
+        const modbus::rtu_timing& timing = first.timing ? *first.timing : of != nullptr ? of->timing : timing_;
+        return question{first.ticket, first.unit, std::move(first.request), timing, now};
+    }
+    return std::nullopt;
+}
+
+const station* modbus_line::find(modbus::unit_id unit) const
+{
+    const auto found =
+        std::find_if(stations_.begin(), stations_.end(), [unit](const station& each) { return each.unit == unit; });
+    return found == stations_.end() ? nullptr : &*found;
+}
+
+std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
 {
     const auto turn = schedule_.next(now);
     if (!turn)
@@ -52,15 +110,22 @@ std::optional<modbus_line::question> modbus_line::next(time_point now)
 void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
                            unanswered_requests late)
 {
-    row& of = routes_[q.turn.item];
+    if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
+        forwards_.answer(*forwarded, answer);
+        return;
+    }
+    const auto& turn = std::get<schedule::turn>(q.origin);
+    row& of = routes_[turn.item];
     const health before = schedule_.state_of(of.station);
-    schedule_.finished(q.turn, schedule::outcome::answered, now - q.asked_at, now, late);
+    schedule_.finished(turn, schedule::outcome::answered, now - q.asked_at, now, late);
     if (before == health::down)
         note(line_event::severity::info, label(stations_[of.station]) + " answers again");
 
     of.answered = true;
     if (const auto* refused = std::get_if<modbus::exception_code>(&answer)) {
         set_quality(of, quality::device_error, exception_text(*refused));
+        if (of.content.way == direction::write && may_pass(*refused))
+            schedule_.ask(turn.item, now + refused_write_pause);
         return;
     }
     const std::vector<std::uint16_t> words_before = of.content.words;
@@ -73,10 +138,15 @@ void modbus_line::answered(const question& q, const modbus::response& answer, ti
 
 void modbus_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
 {
-    row& of = routes_[q.turn.item];
+    if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
+        forwards_.answer(*forwarded, why);
+        return;
+    }
+    const auto& turn = std::get<schedule::turn>(q.origin);
+    row& of = routes_[turn.item];
     const health before = schedule_.state_of(of.station);
     const bool asked = why != errc::line_not_quiet;
-    schedule_.finished(q.turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
+    schedule_.finished(turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
                        late);
     set_quality(of, quality::comm_error, why.message());
     if (before != health::down && schedule_.state_of(of.station) == health::down)
@@ -85,14 +155,25 @@ void modbus_line::failed(const question& q, boost::system::error_code why, time_
 
 void modbus_line::interrupted(const question& q)
 {
-    if (routes_[q.turn.item].content.way == direction::write)
-        schedule_.ask(q.turn.item);
+    if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin))
+        forwards_.answer(*forwarded, make_error_code(errc::port_absent));
+    else
+        schedule_.finished(std::get<schedule::turn>(q.origin), schedule::outcome::not_asked, {}, q.asked_at);
 }
 
 void modbus_line::port_lost(const std::string& why)
 {
     for (row& each : routes_)
-        set_quality(each, quality::comm_error, why);
+        lose(each, why);
+    forwards_.answer_all(errc::port_absent);
+    port_open_ = false;
+}
+
+// A value that nobody can renew now. What is only written is as good as it was.
+void modbus_line::lose(row& of, const std::string& why)
+{
+    if (of.content.way == direction::read)
+        set_quality(of, quality::comm_error, why);
 }
 
 bool modbus_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
@@ -138,8 +219,22 @@ void modbus_line::say_everything()
 
 std::size_t modbus_line::routes_up() const
 {
-    return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(),
-                                                  [](const row& each) { return each.content.state == quality::good; }));
+    return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(), [](const row& each) {
+        const bool idle_write = each.content.way == direction::write && each.content.state == quality::never_read;
+        return each.content.state == quality::good || idle_write;
+    }));
+}
+
+void modbus_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
+{
+    const plc::change span{at.area, at.bit, bits};
+    for (const row& each : routes_) {
+        if (each.content.way != direction::read || !touches(each.content, plc, span))
+            continue;
+        if (each.content.state != quality::good && of.state == quality::good)
+            of.state = each.content.state;
+        of.source = std::min(of.source, each.content.source);
+    }
 }
 
 void modbus_line::set_quality(row& of, quality state, const std::string& reason)
@@ -161,7 +256,7 @@ void modbus_line::station_down(std::size_t index, const std::string& reason)
          label(stations_[index]) + " does not answer (" + reason + "): its values are kept, it is probed from now on");
     for (row& each : routes_)
         if (each.station == index)
-            set_quality(each, quality::comm_error, reason);
+            lose(each, reason);
 }
 
 std::string modbus_line::label(const station& of) const

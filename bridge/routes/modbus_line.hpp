@@ -1,6 +1,7 @@
 // The routes of one MODBUS line: which question goes out next, and what its answer does to memory and quality.
 #pragma once
 
+#include "bridge/routes/forward_queue.hpp"
 #include "bridge/routes/route.hpp"
 #include "bridge/routes/schedule.hpp"
 #include "protocols/modbus/rtu_transaction.hpp"
@@ -21,13 +22,21 @@ struct line_event {
 
 class modbus_line {
 public:
-    modbus_line(std::string name, std::vector<station> stations, duration longest_silence);
+    // timing: of requests to units that are no station of this line.
+    modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
+                const modbus::rtu_timing& timing = {});
 
     void add_route(route r, std::size_t station, duration period);
     void start(time_point now) { schedule_.start(now); }
 
+    // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent or the station
+    // is known to be down. Nothing when too many wait.
+    std::optional<forward_ticket> forward(modbus::unit_id unit, modbus::request request,
+                                          std::optional<modbus::rtu_timing> timing = {});
+    std::vector<forward_answer> take_forwarded() { return forwards_.take_answers(); }
+
     struct question {
-        schedule::turn turn;
+        std::variant<schedule::turn, forward_ticket> origin;
         modbus::unit_id unit{};
         modbus::request request;
         modbus::rtu_timing timing;
@@ -35,7 +44,7 @@ public:
     };
 
     std::optional<question> next(time_point now);
-    time_point wake_at(time_point now) const { return schedule_.wake_at(now); }
+    time_point wake_at(time_point now) const { return forwards_.empty() ? schedule_.wake_at(now) : now; }
 
     // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered.
     void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
@@ -43,6 +52,7 @@ public:
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
     void interrupted(const question& q);  // the port went away: the station is not to blame
 
+    void port_opened() { port_open_ = true; }
     void port_lost(const std::string& why);  // values stay, qualities change
 
     // Somebody drained this change of a memory. True when a route is due to write it to its station.
@@ -55,7 +65,10 @@ public:
 
     const std::string& name() const { return name_; }
     std::size_t routes_total() const { return routes_.size(); }
-    std::size_t routes_up() const;  // of good quality
+    std::size_t routes_up() const;  // of good quality, and those that had nothing to write yet
+
+    // The worst quality and the oldest source among the read routes that fill these devices; good when there are none.
+    void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;
 
 private:
     struct row {
@@ -69,6 +82,10 @@ private:
     };
 
     void set_quality(row& of, quality state, const std::string& reason);
+    std::optional<question> next_poll(time_point now);
+    std::optional<question> next_forward(time_point now);
+    const station* find(modbus::unit_id unit) const;
+    void lose(row& of, const std::string& why);
     void age(row& of, time_point now);
     void station_down(std::size_t index, const std::string& reason);
     void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
@@ -78,6 +95,10 @@ private:
     std::vector<station> stations_;
     std::vector<row> routes_;  // numbered like the schedule's items
     schedule schedule_;
+    forward_queue forwards_;
+    bool forwarded_last_ = false;
+    bool port_open_ = false;
+    modbus::rtu_timing timing_;
     duration longest_silence_;
     std::vector<line_event> events_;
 };

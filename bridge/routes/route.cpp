@@ -54,7 +54,7 @@ std::vector<std::uint16_t> written_words(const modbus::request& question)
     return {};
 }
 
-// One overload for each response of an answered question. The memory's images hold bit and word devices alike, so bits
+// One overload for each response that carries values. The memory's images hold bit and word devices alike, so bits
 // can go into words and registers into bits.
 struct storer {
     route& r;
@@ -73,7 +73,11 @@ struct storer {
         r.words = answer.values;
     }
     void operator()(const modbus::written&) const { r.words = written_words(question); }
-    void operator()(modbus::exception_code) const {}
+    void operator()(const modbus::no_response&) const { r.words = written_words(question); }  // a broadcast
+    template <class Other>
+    void operator()(const Other&) const
+    {
+    }
 };
 
 }  // namespace

@@ -7,21 +7,20 @@ namespace {
 
 constexpr int probe_share = 20;  // a probe is followed by 19 times its duration without one
 constexpr duration idle_check = std::chrono::seconds(1);
-constexpr duration first_round = std::chrono::seconds(1);    // in which every poll is read for the first time
-constexpr duration longest_delay = std::chrono::seconds(5);  // no station answers later than that
-constexpr duration slack = std::chrono::milliseconds(100);   // time on the wire and jitter of a late answer
+constexpr duration first_round = std::chrono::seconds(1);   // in which every poll is read for the first time
+constexpr duration slack = std::chrono::milliseconds(100);  // time on the wire and jitter of a late answer
 
 }  // namespace
 
 std::size_t schedule::add_poll(std::size_t station, duration period)
 {
-    items_.push_back({station, period, {}, false});
+    items_.push_back({station, period, {}, false, false});
     return items_.size() - 1;
 }
 
 std::size_t schedule::add_write(std::size_t station)
 {
-    items_.push_back({station, {}, {}, false});
+    items_.push_back({station, {}, {}, false, false});
     return items_.size() - 1;
 }
 
@@ -30,16 +29,19 @@ void schedule::start(time_point now)
     const auto count = static_cast<std::int64_t>(items_.size());
     for (std::int64_t i = 0; i < count; ++i) {
         item_state& each = items_[static_cast<std::size_t>(i)];
-        each.due = now + std::min(each.period, first_round) * i / count;
+        if (each.period != duration{})
+            each.due = now + std::min(each.period, first_round) * i / count;
     }
 }
 
 // When an item may go, as far as its own state and its station's health allow; time_point::max() = not now.
-time_point schedule::ready_at(std::size_t index, time_point now) const
+time_point schedule::ready_at(std::size_t index) const
 {
     const item_state& each = items_[index];
+    if (each.in_flight)
+        return time_point::max();
     const station_state& of = stations_[each.station];
-    const time_point own = each.period != duration{} ? each.due : each.asked ? now : time_point::max();
+    const time_point own = each.period != duration{} || each.asked ? each.due : time_point::max();
     switch (of.health.state()) {
     case health::healthy: return std::max(own, of.not_before);
     // The same question again: should the answer to the failed one come late, it answers this one.
@@ -54,7 +56,7 @@ std::optional<std::size_t> schedule::first_probe(time_point now) const
     std::optional<std::size_t> first;
     time_point oldest = time_point::max();
     for (const station_state& each : stations_) {
-        if (each.health.state() != health::down || ready_at(each.failed_item, now) > now)
+        if (each.health.state() != health::down || ready_at(each.failed_item) > now)
             continue;
         if (each.health.probe_at() < oldest) {
             oldest = each.health.probe_at();
@@ -70,7 +72,7 @@ std::optional<std::size_t> schedule::first_write(time_point now) const
         const std::size_t index = (last_write_ + n) % items_.size();
         const item_state& each = items_[index];
         if (each.period == duration{} && stations_[each.station].health.state() != health::down &&
-            ready_at(index, now) <= now)
+            ready_at(index) <= now)
             return index;
     }
     return std::nullopt;
@@ -84,7 +86,7 @@ std::optional<std::size_t> schedule::first_poll(time_point now) const
         const item_state& each = items_[i];
         if (each.period == duration{} || stations_[each.station].health.state() == health::down)
             continue;
-        if (ready_at(i, now) <= now && each.due + each.period < earliest) {
+        if (ready_at(i) <= now && each.due + each.period < earliest) {
             earliest = each.due + each.period;
             first = i;
         }
@@ -96,6 +98,7 @@ std::optional<schedule::turn> schedule::next(time_point now)
 {
     // Probes first: their share is limited, and behind the polls of a full line they would never come.
     if (const auto probe = first_probe(now)) {
+        items_[*probe].in_flight = true;
         items_[*probe].asked = false;
         return turn{*probe, false};
     }
@@ -112,6 +115,7 @@ std::optional<schedule::turn> schedule::next(time_point now)
         last_write_ = *write;
         items_[*write].asked = false;
     }
+    items_[*chosen].in_flight = true;
     return turn{*chosen, state_of(items_[*chosen].station) == health::healthy};
 }
 
@@ -119,13 +123,14 @@ time_point schedule::wake_at(time_point now) const
 {
     time_point earliest = now + idle_check;
     for (std::size_t i = 0; i < items_.size(); ++i)
-        earliest = std::min(earliest, ready_at(i, now));
+        earliest = std::min(earliest, ready_at(i));
     return earliest;
 }
 
 void schedule::finished(const turn& done, outcome how, duration took, time_point now, unanswered_requests late)
 {
     item_state& each = items_[done.item];
+    each.in_flight = false;
     station_state& of = stations_[each.station];
     const bool was_probe = of.health.state() == health::down;
 
@@ -137,7 +142,7 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
         // The answer may belong to the first of the unanswered requests. Then the other answers follow, each at most as
         // late as this one was, also from a device that works them off one by one. They must not meet another question.
         if (of.owed != 0)
-            of.not_before = now + std::min<duration>(of.owed * (now - of.owed_since), longest_delay) + slack;
+            of.not_before = now + std::min<duration>(of.owed * (now - of.owed_since), of.longest_delay) + slack;
         of.owed = 0;
     }
     else if (how == outcome::silent) {
@@ -156,7 +161,7 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
 // Who was silent for longer than any answer takes owes none.
 void schedule::remember_unanswered(station_state& of, unanswered_requests late, time_point now)
 {
-    if (of.owed != 0 && now - of.last_silence > longest_delay)
+    if (of.owed != 0 && now - of.last_silence > of.longest_delay)
         of.owed = 0;
     if (late.count == 0)
         return;

@@ -24,8 +24,15 @@ public:
     std::size_t add_poll(std::size_t station, duration period);
     std::size_t add_write(std::size_t station);
 
+    // How late an answer of this station may be; 5 s if nobody says so.
+    void set_longest_delay(std::size_t station, duration longest) { stations_[station].longest_delay = longest; }
+
     void start(time_point now);  // spreads the first polls over their periods, at most over a second
-    void ask(std::size_t item) { items_[item].asked = true; }
+    void ask(std::size_t item, time_point not_before = {})
+    {
+        items_[item].asked = true;
+        items_[item].due = not_before;
+    }
 
     struct turn {
         std::size_t item{};
@@ -48,20 +55,22 @@ public:
 private:
     struct item_state {
         std::size_t station{};
-        duration period{};   // 0: a write
-        time_point due{};    // of a poll
-        bool asked = false;  // of a write
+        duration period{};       // 0: a write
+        time_point due{};        // of a poll
+        bool asked = false;      // of a write
+        bool in_flight = false;  // taken by next(), not finished: a TCP line asks several at a time
     };
     struct station_state {
         station_health health;
         std::size_t failed_item = 0;  // asked again before anything else while not healthy
-        unsigned owed = 0;            // answers that may still come
-        time_point owed_since{};      // when the first request of these went out
-        time_point last_silence{};    // when the last one did
-        time_point not_before{};      // until then they may come
+        duration longest_delay{5'000'000};
+        unsigned owed = 0;          // answers that may still come
+        time_point owed_since{};    // when the first request of these went out
+        time_point last_silence{};  // when the last one did
+        time_point not_before{};    // until then they may come
     };
 
-    time_point ready_at(std::size_t index, time_point now) const;
+    time_point ready_at(std::size_t index) const;
     std::optional<std::size_t> first_probe(time_point now) const;
     std::optional<std::size_t> first_write(time_point now) const;
     std::optional<std::size_t> first_poll(time_point now) const;

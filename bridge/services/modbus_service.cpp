@@ -1,6 +1,6 @@
 #include "bridge/services/modbus_service.hpp"
 
-#include <algorithm>
+#include "bridge/services/device_identification.hpp"
 
 namespace plcgw {
 namespace {
@@ -97,6 +97,12 @@ struct server {
         return modbus::registers_read{read_words(plc.memory(), *from)};
     }
 
+    template <class NotMemory>
+    response operator()(const NotMemory&) const
+    {
+        return exception_code::illegal_function;
+    }
+
 private:
     response write_coils(modbus::address first, const std::vector<bool>& values) const
     {
@@ -117,9 +123,17 @@ private:
     }
 };
 
-bool supports(const plc::model& m, std::uint8_t function_code)
+// One request PDU: the checks that come before memory, then `serve`.
+template <class Serve>
+buffer serve_checked(const plc::model& m, bytes pdu, Serve serve_one)
 {
-    return std::find(m.functions.begin(), m.functions.end(), modbus::function{function_code}) != m.functions.end();
+    const std::uint8_t function_code = pdu.empty() ? std::uint8_t{0} : pdu[0];
+    if (!plc::answers(m, modbus::function{function_code}, plc::transport::tcp))
+        return modbus::encode_exception(function_code, exception_code::illegal_function);
+    const auto question = modbus::parse_request(pdu);
+    if (!question)
+        return modbus::encode_exception(function_code, question.error());
+    return modbus::encode_response(*question, serve_one(*question));
 }
 
 }  // namespace
@@ -131,13 +145,16 @@ modbus::response serve(plc::simulated_plc& plc, const modbus::request& question)
 
 buffer serve_pdu(plc::simulated_plc& plc, bytes pdu)
 {
-    const std::uint8_t function_code = pdu.empty() ? std::uint8_t{0} : pdu[0];
-    if (!supports(plc.model(), function_code))
-        return modbus::encode_exception(function_code, exception_code::illegal_function);
-    const auto question = modbus::parse_request(pdu);
-    if (!question)
-        return modbus::encode_exception(function_code, question.error());
-    return modbus::encode_response(*question, serve(plc, *question));
+    return serve_checked(plc.model(), pdu, [&](const modbus::request& question) { return serve(plc, question); });
+}
+
+buffer serve_pdu(plc::simulated_plc& plc, bytes pdu, std::string_view revision)
+{
+    return serve_checked(plc.model(), pdu, [&](const modbus::request& question) -> response {
+        if (const auto* asked = std::get_if<modbus::read_device_identification>(&question))
+            return identify(plc, revision, *asked);
+        return serve(plc, question);
+    });
 }
 
 }  // namespace plcgw

@@ -1,5 +1,6 @@
 #include "daemon/config/check.hpp"
 
+#include "bridge/plc/adprw_program.hpp"
 #include "bridge/plc/simulated_plc.hpp"
 #include "daemon/config/ip_address.hpp"
 #include "daemon/config/program_file.hpp"
@@ -127,6 +128,7 @@ private:
         }
         if (is_sound(item("plcs", i, "program")))
             check_program(i, p, *model, *program);
+        check_channels(i, p, *model);
     }
 
     void check_program(std::size_t i, const plc_config& p, const plc::model& model, const std::string& text)
@@ -134,12 +136,42 @@ private:
         plc::setup_program program = plc::parse_setup_program(text);
         for (const plc::program_mistake& m : program.mistakes)
             complain_program(i, p, m.line, m.text, mistake::weight::error);
+        for (const plc::program_mistake& m : plc::parse_adprw_program(text).mistakes)
+            complain_program(i, p, m.line, m.text, mistake::weight::error);
         const plc::simulated_plc powered_on(p.name, model, std::move(program));
-        if (const auto& fault = powered_on.fault())
-            complain_program(i, p, fault->line,
-                             fault->reason + "; the PLC runs without it and shows error 202 with detail " +
-                                 std::to_string(fault->detail) + " in D8402 and D8403",
+        for (const plc::setup_fault& fault : powered_on.faults())
+            complain_program(i, p, fault.what.line,
+                             fault.what.reason + "; the PLC runs without it and shows error " +
+                                 std::to_string(static_cast<unsigned>(fault.code)) + " with detail " +
+                                 std::to_string(fault.what.detail) + shown_in(model, fault.channel),
                              mistake::weight::warning);
+    }
+
+    // " in D8402 and D8403", as far as the model has them.
+    static std::string shown_in(const plc::model& model, unsigned channel)
+    {
+        for (const plc::channel& each : model.channels)
+            if (each.number == channel && each.registers.error_detail != 0)
+                return " in D" + std::to_string(each.registers.error_code) + " and D" +
+                       std::to_string(each.registers.error_detail);
+        return {};
+    }
+
+    void check_channels(std::size_t i, const plc_config& p, const plc::model& model)
+    {
+        for (std::size_t n = 0; n < p.channels.size(); ++n) {
+            const std::string at = item("plcs", i, "channels") + "/" + std::to_string(n);
+            const auto* const line = find("lines", c_.lines, "line", p.channels[n].line, at + "/line");
+            if (line != nullptr && line->role != line_role::client)
+                complain(at + "/line",
+                         "is a server line: a PLC asks on a client line; on a server line give it a unit");
+            const bool exists = std::any_of(model.channels.begin(), model.channels.end(), [&](const plc::channel& c) {
+                return c.number == p.channels[n].channel && c.client;
+            });
+            if (!exists && is_sound(at))
+                complain(at + "/channel", "is " + std::to_string(p.channels[n].channel) + ", where a " +
+                                              std::string(model.name) + " cannot be client");
+        }
     }
 
     void complain_program(std::size_t i, const plc_config& p, std::size_t line, const std::string& what,
@@ -156,6 +188,14 @@ private:
 
     void check_line(std::size_t i, const line_config& l)
     {
+        const bool serial = l.protocol == line_protocol::modbus_rtu;
+        if (is_sound(item("lines", i)) && (serial ? l.device : l.host).empty())
+            complain(item("lines", i), serial ? "lacks \"device\": the path of a serial port"
+                                              : "lacks \"host\": the address of a MODBUS TCP server");
+        if (l.role == line_role::server)
+            check_server_line(i, l, serial);
+        else if (!l.units.empty() && is_sound(item("lines", i)))
+            complain(item("lines", i, "units"), "stands at a client line: its stations are listed under \"stations\"");
         if (l.data_bits != 8)
             complain(item("lines", i, "data_bits"), "is 7, but MODBUS RTU needs 8 data bits");
         for (std::size_t other = 0; other < i; ++other)
@@ -164,9 +204,63 @@ private:
                          "is already the device of line \"" + c_.lines[other].name + "\": a port belongs to one line");
     }
 
+    void check_server_line(std::size_t i, const line_config& l, bool serial)
+    {
+        if (!serial)
+            complain(item("lines", i, "role"), "is server, but a MODBUS TCP server stands under \"modbus_tcp\"");
+        if (l.units.empty() && is_sound(item("lines", i)))
+            complain(item("lines", i), "serves nobody: give \"units\"");
+        check_units(item("lines", i, "units"), l.units);
+        for (std::size_t u = 0; u < l.units.size(); ++u) {
+            const std::string at = item("lines", i, "units") + "/" + std::to_string(u);
+            if (!l.units[u].line.empty())
+                complain(at + "/line", "forwards from a serial line, which this version cannot: give \"plc\"");
+            if (l.units[u].unit < 1 || l.units[u].unit > 247)
+                complain(at + "/unit", "is not within 1 to 247, the unit ids of a serial line");
+            check_unit_channel(at, l.units[u]);
+        }
+    }
+
+    void check_unit_channel(const std::string& at, const unit_config& unit)
+    {
+        const auto owner =
+            std::find_if(c_.plcs.begin(), c_.plcs.end(), [&](const plc_config& each) { return each.name == unit.plc; });
+        const plc::model* const model = owner == c_.plcs.end() ? nullptr : plc::find_model(owner->model);
+        if (model == nullptr)
+            return;
+        const bool exists = std::any_of(model->channels.begin(), model->channels.end(),
+                                        [&](const plc::channel& c) { return c.number == unit.channel; });
+        if (!exists)
+            complain(at + "/channel", "is a channel that a " + std::string(model->name) + " does not have");
+    }
+
+    void check_units(const std::string& list, const std::vector<unit_config>& units)
+    {
+        std::set<unsigned> seen;
+        for (std::size_t u = 0; u < units.size(); ++u) {
+            const std::string at = list + "/" + std::to_string(u);
+            if (!units[u].plc.empty())
+                find_plc(units[u].plc, at + "/plc");
+            if (!units[u].line.empty())
+                check_client_line(units[u].line, at + "/line");
+            if (is_sound(at) && units[u].plc.empty() == units[u].line.empty())
+                complain(at, "leads " + std::string(units[u].plc.empty() ? "nowhere" : "to two places") +
+                                 ": give either \"plc\" or \"line\"");
+            if (is_sound(at) && !seen.insert(units[u].unit).second)
+                complain(at + "/unit", "stands twice: a unit id leads to one place");
+        }
+    }
+
+    void check_client_line(const std::string& name, const std::string& at)
+    {
+        const auto* const line = find("lines", c_.lines, "line", name, at);
+        if (line != nullptr && line->role != line_role::client)
+            complain(at, "is a server line: nobody can be asked there");
+    }
+
     void check_station(std::size_t i, const station_config& s)
     {
-        find("lines", c_.lines, "line", s.line, item("stations", i, "line"));
+        check_client_line(s.line, item("stations", i, "line"));
         for (std::size_t other = 0; other < i; ++other)
             if (c_.stations[other].line == s.line && c_.stations[other].unit == s.unit &&
                 is_sound(item("stations", i)) && is_sound(item("stations", other)))
@@ -218,7 +312,7 @@ private:
             return std::nullopt;
         const plc::memory memory(*model);
         const auto at = memory.find(*parsed);
-        if (!at) {
+        if (!at || !plc::exists(*model, *parsed)) {
             complain(row + "/device",
                      "is " + plc::to_string(*parsed) + ", which a " + std::string(model->name) + " does not have");
             return std::nullopt;
@@ -248,17 +342,15 @@ private:
             complain(item("modbus_tcp", i, "listen"),
                      "is \"" + s.listen + "\", expected an IP address such as 0.0.0.0");
         check_port(i, s);
-        if (!s.other_units.empty())
+        const bool is_line = std::any_of(c_.lines.begin(), c_.lines.end(),
+                                         [&](const line_config& each) { return each.name == s.other_units; });
+        if (is_line)
+            check_client_line(s.other_units, item("modbus_tcp", i, "other_units"));
+        else if (!s.other_units.empty())
             find_plc(s.other_units, item("modbus_tcp", i, "other_units"));
         if (s.units.empty() && s.other_units.empty() && is_sound(item("modbus_tcp", i)))
             complain(item("modbus_tcp", i), "leads to no PLC: give \"units\" or \"other_units\"");
-        std::set<unsigned> seen;
-        for (std::size_t u = 0; u < s.units.size(); ++u) {
-            const std::string at = item("modbus_tcp", i, "units") + "/" + std::to_string(u);
-            find_plc(s.units[u].plc, at + "/plc");
-            if (is_sound(at) && !seen.insert(s.units[u].unit).second)
-                complain(at + "/unit", "stands twice: a unit id leads to one PLC");
-        }
+        check_units(item("modbus_tcp", i, "units"), s.units);
     }
 
     void check_port(std::size_t i, const tcp_server_config& s)

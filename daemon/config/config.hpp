@@ -15,11 +15,18 @@ namespace plcgw {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
+// On which line a PLC's channel asks with its ADPRW instructions.
+struct channel_config {
+    unsigned channel = 1;
+    std::string line;
+};
+
 struct plc_config {
     std::string name;
     std::string model = "FX3U";
-    std::vector<std::string> program;  // lines of the setup program
-    std::string program_file;          // the same in a file, relative to the configuration's folder
+    std::vector<std::string> program;  // lines of the PLC's program
+    std::vector<channel_config> channels;
+    std::string program_file;  // the same in a file, relative to the configuration's folder
 };
 
 // RS-485 direction by TIOCSRS485, where the driver has it.
@@ -32,12 +39,26 @@ struct rs485_config {
     milliseconds delay_after_send{0};
 };
 
-enum class line_protocol : std::uint8_t { modbus_rtu };
+// Where a unit id leads: to a PLC, or to a station of a line.
+struct unit_config {
+    unsigned unit = 1;
+    std::string plc;
+    std::string line;
+    unsigned line_unit = 0;  // unit id on that line; 0 = the same
+    unsigned channel = 1;    // of the PLC, on a serial line: whose special devices show the communication
+};
+
+enum class line_protocol : std::uint8_t { modbus_rtu, modbus_tcp };
+enum class line_role : std::uint8_t { client, server };
 
 struct line_config {
     std::string name;
-    std::string device;
+    std::string device;  // of a serial line
+    std::string host;    // of a TCP connection
+    unsigned port = 502;
     line_protocol protocol = line_protocol::modbus_rtu;
+    line_role role = line_role::client;
+    std::vector<unit_config> units;  // of a server line
     unsigned baud_rate = 19200;
     unsigned data_bits = 8;
     parity check = parity::even;
@@ -48,6 +69,8 @@ struct line_config {
     milliseconds turnaround_delay{100};
     microseconds gap{0};  // 0 = 3.5 characters; 1.75 ms above 19200 bit/s
     milliseconds silence{20};
+    local_echo echo = local_echo::automatic;
+    unsigned max_outstanding = 1;  // of MODBUS TCP
 };
 
 struct station_config {
@@ -70,17 +93,13 @@ struct route_config {
     milliseconds period{1000};
 };
 
-struct unit_config {
-    unsigned unit = 1;
-    std::string plc;
-};
-
 struct tcp_server_config {
     std::string listen = "127.0.0.1";
     unsigned port = 502;
     std::vector<unit_config> units;
-    std::string other_units;  // PLC for the unit ids that are not listed; empty: exception 0A
+    std::string other_units;  // PLC or line for the unit ids that are not listed; empty: exception 0A
     unsigned max_clients = 256;
+    std::chrono::seconds idle_timeout{0};  // 0 = a client may be silent for ever
 };
 
 struct block_config {
@@ -102,6 +121,10 @@ struct log_config {
     log_level level = log_level::info;
 };
 
+struct control_config {
+    std::string socket;  // empty: control.sock in the runtime directory
+};
+
 struct gateway_config {
     std::string schema;  // for editors only
     std::string gateway = "gateway";
@@ -112,6 +135,7 @@ struct gateway_config {
     std::vector<tcp_server_config> modbus_tcp;
     dds_config dds;
     log_config log;
+    control_config control;
 };
 
 }  // namespace plcgw

@@ -29,7 +29,11 @@ struct choice {
     Enum value;
 };
 
-inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu}};
+inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu},
+                                                           {"modbus-tcp", line_protocol::modbus_tcp}};
+inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
+inline constexpr choice<local_echo> local_echoes[] = {
+    {"off", local_echo::off}, {"on", local_echo::on}, {"auto", local_echo::automatic}};
 inline constexpr choice<parity> parities[] = {{"none", parity::none}, {"odd", parity::odd}, {"even", parity::even}};
 inline constexpr choice<direction> directions[] = {{"read", direction::read}, {"write", direction::write}};
 inline constexpr choice<modbus::table> tables[] = {{"coil", modbus::table::coils},
@@ -42,14 +46,22 @@ inline constexpr choice<log_level> log_levels[] = {{"debug", log_level::debug},
                                                    {"error", log_level::error}};
 
 template <class Visitor>
+void describe(Visitor& v, channel_config& c)
+{
+    v.required("channel", c.channel, "Number of the PLC's MODBUS channel", range{1, 3});
+    v.required("line", c.line, "Name of the client line that it asks with ADPRW", name_rule);
+}
+
+template <class Visitor>
 void describe(Visitor& v, plc_config& c)
 {
     v.required("name", c.name, "Name of the simulated PLC", name_rule);
-    v.optional("model", c.model, "PLC family: FX3U or FX3UC", name_rule);
-    v.optional("program", c.program, "Setup program, one instruction per string: LD M8411, MOV H5002 D8470, ...",
-               text{});
+    v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22 or LS32", name_rule);
+    v.optional("program", c.program,
+               "PLC program, one instruction per string: LD M8411, MOV H5002 D8470, ... and ADPRW lines", text{});
+    v.optional("channels", c.channels, "Lines on which the PLC's own program is client");
     v.optional("program_file", c.program_file,
-               "File with the setup program instead; relative to the folder of this configuration", text{});
+               "File with the program instead; relative to the folder of this configuration", text{});
 }
 
 template <class Visitor>
@@ -64,11 +76,27 @@ void describe(Visitor& v, rs485_config& c)
 }
 
 template <class Visitor>
+void describe(Visitor& v, unit_config& c)
+{
+    v.required("unit", c.unit, "MODBUS unit id", range{0, 255});
+    v.optional("plc", c.plc, "Name of the simulated PLC that answers", text{0, 64});
+    v.optional("line", c.line, "Or name of the line to which requests are forwarded", text{0, 64});
+    v.optional("line_unit", c.line_unit, "Unit id on that line; 0 = the same", range{0, 255});
+    v.optional("channel", c.channel, "Channel of the PLC that a server line stands for: its special D and M show it",
+               range{1, 3});
+}
+
+template <class Visitor>
 void describe(Visitor& v, line_config& c)
 {
     v.required("name", c.name, "Name of the line", name_rule);
-    v.required("device", c.device, "Serial port, best a stable name such as /dev/serial/by-id/...", text{1});
-    v.optional("protocol", c.protocol, "What is spoken on the line; the gateway is the client", line_protocols);
+    v.optional("device", c.device, "Serial port, best a stable name such as /dev/serial/by-id/...", text{});
+    v.optional("host", c.host, "Host name or address instead of a serial port, for modbus-tcp", text{});
+    v.optional("port", c.port, "TCP port of the host", range{1, 65'535});
+    v.optional("protocol", c.protocol, "What is spoken on the line", line_protocols);
+    v.optional("role", c.role, "client: the gateway asks the stations; server: it answers, for the units below",
+               line_roles);
+    v.optional("units", c.units, "Of a server line: which unit id leads to which PLC");
     v.optional("baud_rate", c.baud_rate, "Bits per second", range{300, 4'000'000});
     v.optional("data_bits", c.data_bits, "Data bits; RTU needs 8", range{7, 8});
     v.optional("parity", c.check, "Parity bit", parities);
@@ -81,7 +109,10 @@ void describe(Visitor& v, line_config& c)
                range{0, 32'767});
     v.optional("gap_us", c.gap, "Microseconds of silence before a request; 0 = 3.5 characters, never less",
                range{0, 16'382'000});
-    v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged answer", range{1, 1000});
+    v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged frame", range{1, 1000});
+    v.optional("local_echo", c.echo, "Whether the adapter returns what it sends; auto finds out at the first read",
+               local_echoes);
+    v.optional("max_outstanding", c.max_outstanding, "Requests under way at a time, modbus-tcp only", range{1, 64});
 }
 
 template <class Visitor>
@@ -109,20 +140,16 @@ void describe(Visitor& v, route_config& c)
 }
 
 template <class Visitor>
-void describe(Visitor& v, unit_config& c)
-{
-    v.required("unit", c.unit, "MODBUS unit id", range{0, 255});
-    v.required("plc", c.plc, "Name of the simulated PLC that answers", name_rule);
-}
-
-template <class Visitor>
 void describe(Visitor& v, tcp_server_config& c)
 {
     v.optional("listen", c.listen, "Address to listen on; 0.0.0.0 or :: for every interface", text{1});
     v.optional("port", c.port, "TCP port", range{1, 65'535});
     v.optional("units", c.units, "Which unit id leads to which PLC");
-    v.optional("other_units", c.other_units, "PLC for all other unit ids; empty: they get exception 0A", text{0, 64});
+    v.optional("other_units", c.other_units, "PLC or line for all other unit ids; empty: they get exception 0A",
+               text{0, 64});
     v.optional("max_clients", c.max_clients, "Connections at a time", range{1, 10'000});
+    v.optional("idle_timeout_s", c.idle_timeout, "Seconds until a silent client is disconnected; 0 = never",
+               range{0, 86'400});
 }
 
 template <class Visitor>
@@ -155,6 +182,13 @@ void describe(Visitor& v, log_config& c)
 }
 
 template <class Visitor>
+void describe(Visitor& v, control_config& c)
+{
+    v.optional("socket", c.socket, "Unix socket for commands; empty: control.sock in the runtime directory",
+               text{0, 100});
+}
+
+template <class Visitor>
 void describe(Visitor& v, gateway_config& c)
 {
     v.optional("$schema", c.schema, "Path of the JSON Schema, for editors", text{});
@@ -166,6 +200,7 @@ void describe(Visitor& v, gateway_config& c)
     v.optional("modbus_tcp", c.modbus_tcp, "MODBUS TCP servers");
     v.optional("dds", c.dds, "DDS");
     v.optional("log", c.log, "Logging");
+    v.optional("control", c.control, "Commands for the running gateway");
 }
 
 }  // namespace plcgw::config

@@ -15,8 +15,10 @@ std::optional<std::string> program_text(const plc_config& c, const std::string& 
         return text;
     }
     const std::filesystem::path path = std::filesystem::path(folder) / c.program_file;
+    if (!std::filesystem::is_regular_file(path))  // a pipe would wait for somebody who writes
+        return std::nullopt;
     std::ifstream file(path);
-    if (!file || !std::filesystem::is_regular_file(path))
+    if (!file)
         return std::nullopt;
     return std::string(std::istreambuf_iterator<char>(file), {});
 }

@@ -7,4 +7,6 @@ namespace plcgw::modbus {
 
 std::uint16_t crc16(bytes data);  // sent low byte first
 
+inline bool crc_fits(bytes adu) { return crc16(adu) == 0; }  // over data and its own CRC the remainder is zero
+
 }  // namespace plcgw::modbus

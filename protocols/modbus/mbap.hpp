@@ -22,7 +22,8 @@ inline constexpr std::size_t mbap_size = 7;  // transaction id, protocol id, len
 class mbap_framer {
 public:
     void feed(bytes received);
-    std::optional<result<tcp_frame>> next();  // nothing yet, a frame, or errc::bad_header
+    std::optional<result<tcp_frame>> next();                      // nothing yet, a frame, or errc::bad_header
+    bool empty() const { return consumed_ == received_.size(); }  // no part of a frame waits for its rest
 
 private:
     buffer received_;

@@ -78,6 +78,60 @@ parsed parse_read_write(bytes pdu)
         read_write_multiple_registers{address_at(pdu, 1), read_count, address_at(pdu, 5), read_words(pdu.subspan(10))}};
 }
 
+// A function code alone.
+template <class Request>
+parsed parse_bare(bytes pdu)
+{
+    if (pdu.size() != 1)
+        return bad_value;
+    return request{Request{}};
+}
+
+bool is_known(diagnostic what)
+{
+    return what <= diagnostic::force_listen_only ||
+           (what >= diagnostic::clear_counters && what <= diagnostic::bus_character_overrun_count);
+}
+
+// Which data each sub-function takes: V1.1b3 section 6.8.1, FX3 manual 7.11.
+bool data_fits(diagnostic what, bytes data)
+{
+    if (what == diagnostic::return_query_data)
+        return data.size() >= 2 && data.size() % 2 == 0;
+    if (data.size() != 2)
+        return false;
+    const std::uint16_t word = read_word(data, 0);
+    if (what == diagnostic::restart_communications)
+        return word == 0x0000 || word == 0xFF00;
+    if (what == diagnostic::change_ascii_delimiter)
+        return (word & 0xFF) == 0;
+    return word == 0;
+}
+
+parsed parse_diagnostics(bytes pdu)
+{
+    if (pdu.size() < 3)
+        return bad_value;
+    const diagnostic what{read_word(pdu, 1)};
+    if (!is_known(what))
+        return exception_code::illegal_function;  // V1.1b3 section 6.8, figure 18: sub-function not supported
+    const bytes data = pdu.subspan(3);
+    if (!data_fits(what, data))
+        return bad_value;
+    return request{diagnostics{what, buffer(data.begin(), data.end())}};
+}
+
+constexpr std::uint8_t mei_device_identification = 0x0E;
+
+parsed parse_encapsulated(bytes pdu)
+{
+    if (pdu.size() < 2 || pdu[1] != mei_device_identification)
+        return exception_code::illegal_function;
+    if (pdu.size() != 4 || pdu[2] < 1 || pdu[2] > 4)
+        return bad_value;
+    return request{read_device_identification{read_device_identification::access{pdu[2]}, pdu[3]}};
+}
+
 function read_function(table from)
 {
     switch (from) {
@@ -122,6 +176,22 @@ struct encoder {
         counted(r.values);
     }
 
+    void operator()(const read_exception_status&) const {}
+    void operator()(const diagnostics& r) const
+    {
+        append_word(pdu, static_cast<std::uint16_t>(r.what));
+        pdu.insert(pdu.end(), r.data.begin(), r.data.end());
+    }
+    void operator()(const get_comm_event_counter&) const {}
+    void operator()(const get_comm_event_log&) const {}
+    void operator()(const report_server_id&) const {}
+    void operator()(const read_device_identification& r) const
+    {
+        pdu.push_back(mei_device_identification);
+        pdu.push_back(static_cast<std::uint8_t>(r.how));
+        pdu.push_back(r.first_object);
+    }
+
 private:
     void words(std::uint16_t first, std::uint16_t second) const
     {
@@ -143,6 +213,12 @@ struct coder {
     function operator()(const write_multiple_registers&) const { return function::write_multiple_registers; }
     function operator()(const mask_write_register&) const { return function::mask_write_register; }
     function operator()(const read_write_multiple_registers&) const { return function::read_write_multiple_registers; }
+    function operator()(const read_exception_status&) const { return function::read_exception_status; }
+    function operator()(const diagnostics&) const { return function::diagnostics; }
+    function operator()(const get_comm_event_counter&) const { return function::get_comm_event_counter; }
+    function operator()(const get_comm_event_log&) const { return function::get_comm_event_log; }
+    function operator()(const report_server_id&) const { return function::report_server_id; }
+    function operator()(const read_device_identification&) const { return function::encapsulated_interface; }
 };
 
 }  // namespace
@@ -160,6 +236,12 @@ parsed parse_request(bytes pdu)
     case function::read_input_registers: return parse_read(table::input_registers, max_read_registers, pdu);
     case function::write_single_coil: return parse_write_single_coil(pdu);
     case function::write_single_register: return parse_write_single_register(pdu);
+    case function::read_exception_status: return parse_bare<read_exception_status>(pdu);
+    case function::diagnostics: return parse_diagnostics(pdu);
+    case function::get_comm_event_counter: return parse_bare<get_comm_event_counter>(pdu);
+    case function::get_comm_event_log: return parse_bare<get_comm_event_log>(pdu);
+    case function::report_server_id: return parse_bare<report_server_id>(pdu);
+    case function::encapsulated_interface: return parse_encapsulated(pdu);
     case function::write_multiple_coils: return parse_write_multiple_coils(pdu);
     case function::write_multiple_registers: return parse_write_multiple_registers(pdu);
     case function::mask_write_register: return parse_mask_write(pdu);

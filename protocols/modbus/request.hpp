@@ -58,8 +58,40 @@ struct read_write_multiple_registers {
     bool operator==(const read_write_multiple_registers&) const = default;
 };
 
-using request = std::variant<read_table, write_single_coil, write_single_register, write_multiple_coils,
-                             write_multiple_registers, mask_write_register, read_write_multiple_registers>;
+struct read_exception_status {
+    bool operator==(const read_exception_status&) const = default;
+};
+
+// Function 08. Every sub-function but "return query data" carries one word.
+struct diagnostics {
+    diagnostic what{};
+    buffer data;  // as on the wire: an even number of bytes, 2 or more
+    bool operator==(const diagnostics&) const = default;
+};
+
+struct get_comm_event_counter {
+    bool operator==(const get_comm_event_counter&) const = default;
+};
+
+struct get_comm_event_log {
+    bool operator==(const get_comm_event_log&) const = default;
+};
+
+struct report_server_id {
+    bool operator==(const report_server_id&) const = default;
+};
+
+// Function 2B with MEI type 0E (V1.1b3 section 6.21).
+struct read_device_identification {
+    enum class access : std::uint8_t { basic = 1, regular = 2, extended = 3, one_object = 4 } how{};
+    std::uint8_t first_object{};
+    bool operator==(const read_device_identification&) const = default;
+};
+
+using request =
+    std::variant<read_table, write_single_coil, write_single_register, write_multiple_coils, write_multiple_registers,
+                 mask_write_register, read_write_multiple_registers, read_exception_status, diagnostics,
+                 get_comm_event_counter, get_comm_event_log, report_server_id, read_device_identification>;
 
 function function_of(const request& r);
 

@@ -5,8 +5,6 @@
 namespace plcgw::modbus {
 namespace {
 
-bool crc_fits(bytes adu) { return crc16(adu) == 0; }  // over data and its own CRC the remainder is zero
-
 // Bytes that are kept although no answer is in them yet: enough for any noise before the longest frame.
 constexpr std::size_t most_kept = 4 * max_rtu_size;
 
@@ -25,8 +23,7 @@ buffer encode_rtu(const frame& f)
 }
 
 rtu_answer::rtu_answer(unit_id unit, const request& question)
-    : unit_(unit), question_(&question), function_(static_cast<std::uint8_t>(function_of(question))),
-      response_size_(modbus::response_size(question))
+    : unit_(unit), question_(&question), function_(static_cast<std::uint8_t>(function_of(question)))
 {
 }
 
@@ -46,10 +43,10 @@ std::optional<response> rtu_answer::answer_at(std::size_t start) const
     const bytes rest = bytes(received_).subspan(start);
     if (rest[0] != static_cast<std::uint8_t>(unit_) || (rest[1] & 0x7F) != function_)
         return std::nullopt;
-    const std::size_t size = rest[1] == function_ ? response_size_ : exception_size;
-    if (rest.size() < size + rtu_overhead || !crc_fits(rest.first(size + rtu_overhead)))
+    const auto size = rest[1] == function_ ? response_size(*question_, rest.subspan(1)) : exception_size;
+    if (!size || rest.size() < *size + rtu_overhead || !crc_fits(rest.first(*size + rtu_overhead)))
         return std::nullopt;
-    auto answer = parse_response(*question_, rest.subspan(1, size));
+    auto answer = parse_response(*question_, rest.subspan(1, *size));
     if (!answer)
         return std::nullopt;
     return std::move(*answer);
@@ -64,6 +61,19 @@ bool rtu_answer::begun() const
     return false;
 }
 
+bool rtu_answer::whole() const
+{
+    for (std::size_t i = 0; i + exception_size + rtu_overhead <= received_.size(); ++i) {
+        const bytes rest = bytes(received_).subspan(i);
+        if (rest[0] != static_cast<std::uint8_t>(unit_) || (rest[1] & 0x7F) != function_)
+            continue;
+        const auto size = rest[1] == function_ ? response_size(*question_, rest.subspan(1)) : exception_size;
+        if (size && rest.size() >= *size + rtu_overhead)
+            return true;
+    }
+    return false;
+}
+
 errc rtu_answer::failure() const
 {
     if (received_.empty())
@@ -73,7 +83,8 @@ errc rtu_answer::failure() const
     if (crc_fits(received_))
         return errc::unexpected_answer;
     const bool answers_us = received_[0] == static_cast<std::uint8_t>(unit_) && received_[1] == function_;
-    return answers_us && received_.size() < response_size_ + rtu_overhead ? errc::incomplete : errc::bad_checksum;
+    const auto whole = response_size(*question_, bytes(received_).subspan(1));
+    return answers_us && (!whole || received_.size() < *whole + rtu_overhead) ? errc::incomplete : errc::bad_checksum;
 }
 
 }  // namespace plcgw::modbus

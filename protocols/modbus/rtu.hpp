@@ -28,6 +28,9 @@ public:
     // Whether our station's answer has begun somewhere in the bytes so far. If not, they were noise or a stranger's.
     bool begun() const;
 
+    // Whether what began may be all of an answer, although damaged: then no other one is on its way.
+    bool whole() const;
+
     // Why there was no answer in the bytes so far, to be asked when the line fell silent.
     errc failure() const;
 
@@ -37,7 +40,6 @@ private:
     unit_id unit_;
     const request* question_;
     std::uint8_t function_;
-    std::size_t response_size_;
     buffer received_;
 };
 

@@ -59,12 +59,15 @@ void rtu_transaction::sent(time_point now)
 {
     ++attempts_;
     sent_until_ = now + character_time(timing_.format, adu_.size());
-    if (unit_ == unit_id::broadcast) {
+    if (!expects_answer(unit_, question_)) {
         line_free_from_ = sent_until_ + std::max(timing_.turnaround, gap());
-        finish(response{written{}});
+        finish(response{no_response{}});
         return;
     }
     answer_.emplace(unit_, question_);
+    echo_.clear();
+    awaits_echo_ =
+        timing_.echo == local_echo::on || (timing_.echo == local_echo::automatic && !echoes_request(question_));
     state_ = state::wait_for_answer;
 }
 
@@ -78,10 +81,28 @@ void rtu_transaction::feed(time_point now, bytes received)
         line_free_from_ = std::max(line_free_from_, now + gap());
         return;
     }
+    received = without_echo(received);
+    if (received.empty())
+        return;
     if (auto answer = answer_->feed(received))
         answered(now, std::move(*answer));
     else
         state_ = state::wait_for_silence;
+}
+
+// What remains of the bytes after a request when its echo is taken away. Empty while they may still become the echo.
+bytes rtu_transaction::without_echo(bytes received)
+{
+    if (!awaits_echo_)
+        return received;
+    echo_.insert(echo_.end(), received.begin(), received.end());
+    const std::size_t compared = std::min(echo_.size(), adu_.size());
+    const bool same = std::equal(echo_.begin(), echo_.begin() + static_cast<std::ptrdiff_t>(compared), adu_.begin());
+    if (same && echo_.size() < adu_.size())
+        return {};
+    awaits_echo_ = false;
+    echo_seen_ = echo_seen_ || same;
+    return same ? bytes(echo_).subspan(adu_.size()) : bytes(echo_);
 }
 
 void rtu_transaction::answered(time_point now, response answer)
@@ -93,7 +114,7 @@ void rtu_transaction::answered(time_point now, response answer)
 
 void rtu_transaction::fail_attempt(time_point now, errc reason)
 {
-    if (!answer_->begun() && unanswered_++ == 0)
+    if (!answer_->whole() && unanswered_++ == 0)
         unanswered_since_ = sent_until_;
     line_free_from_ = std::max(heard_ + gap(), now);
     if (attempts_ > timing_.retries) {

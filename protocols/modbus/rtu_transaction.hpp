@@ -16,6 +16,7 @@ struct rtu_timing {
     duration turnaround{100'000};        // silence after a broadcast
     duration gap{};                      // silence before a request; at least 3.5 characters
     duration silence{20'000};            // ends a damaged answer; longer than the delays of a USB adapter
+    local_echo echo = local_echo::automatic;
 };
 
 class rtu_transaction {
@@ -47,6 +48,7 @@ public:
     unsigned unanswered() const { return unanswered_; }
     time_point unanswered_since() const { return unanswered_since_; }
     std::size_t stray_bytes() const { return stray_bytes_; }  // heard while nobody was asked
+    bool echo_seen() const { return echo_seen_; }
     time_point line_free_from() const { return line_free_from_; }
 
 private:
@@ -56,6 +58,7 @@ private:
     void finish(result<response> outcome);
     void answered(time_point now, response answer);
     duration gap() const;
+    bytes without_echo(bytes received);
     time_point silence_ends() const;
 
     unit_id unit_;
@@ -72,6 +75,9 @@ private:
     time_point heard_{};  // last byte received
     unsigned attempts_ = 0;
     std::size_t stray_bytes_ = 0;
+    buffer echo_;  // bytes since the request that may be its echo
+    bool awaits_echo_ = false;
+    bool echo_seen_ = false;
     duration response_time_{};
     result<response> outcome_ = make_error_code(errc::timed_out);
 };

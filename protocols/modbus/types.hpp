@@ -20,10 +20,34 @@ enum class function : std::uint8_t {
     read_input_registers = 0x04,
     write_single_coil = 0x05,
     write_single_register = 0x06,
+    read_exception_status = 0x07,
+    diagnostics = 0x08,
+    get_comm_event_counter = 0x0B,
+    get_comm_event_log = 0x0C,
     write_multiple_coils = 0x0F,
     write_multiple_registers = 0x10,
+    report_server_id = 0x11,
     mask_write_register = 0x16,
     read_write_multiple_registers = 0x17,
+    encapsulated_interface = 0x2B,
+};
+
+// Sub-functions of diagnostics (V1.1b3 section 6.8, FX3 manual 7.11).
+enum class diagnostic : std::uint16_t {
+    return_query_data = 0x00,
+    restart_communications = 0x01,
+    return_diagnostic_register = 0x02,
+    change_ascii_delimiter = 0x03,
+    force_listen_only = 0x04,
+    clear_counters = 0x0A,
+    bus_message_count = 0x0B,
+    bus_communication_error_count = 0x0C,
+    bus_exception_error_count = 0x0D,
+    server_message_count = 0x0E,
+    server_no_response_count = 0x0F,
+    server_nak_count = 0x10,
+    server_busy_count = 0x11,
+    bus_character_overrun_count = 0x12,
 };
 
 enum class exception_code : std::uint8_t {

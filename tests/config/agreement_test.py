@@ -16,22 +16,28 @@ VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 FULL = {
     "$schema": "plc-gateway.schema.json",
     "gateway": "plant",
-    "plcs": [{"name": "a", "model": "FX3U", "program": ["LD M8411", "MOV K0 D8470"]},
+    "plcs": [{"name": "a", "model": "FX3U", "program": ["LD M8411", "MOV K0 D8470"],
+              "channels": [{"channel": 1, "line": "l"}]},
              {"name": "b", "program_file": "setup.txt"}],
     "lines": [{"name": "l", "device": "/dev/ttyS0", "protocol": "modbus-rtu", "baud_rate": 9600, "data_bits": 8,
                "parity": "none", "stop_bits": 2,
                "rs485": {"enabled": True, "rts_on_send": True, "rts_after_send": False, "rx_during_tx": False,
                          "delay_before_send_ms": 1, "delay_after_send_ms": 1},
-               "response_timeout_ms": 300, "retries": 1, "turnaround_delay_ms": 50, "gap_us": 0, "silence_ms": 20}],
+               "response_timeout_ms": 300, "retries": 1, "turnaround_delay_ms": 50, "gap_us": 0, "silence_ms": 20},
+              {"name": "m", "host": "localhost", "port": 1503, "protocol": "modbus-tcp", "role": "client",
+               "max_outstanding": 4, "local_echo": "off"},
+              {"name": "n", "device": "/dev/ttyS1", "role": "server",
+               "units": [{"unit": 1, "plc": "a", "channel": 2, "line": "", "line_unit": 0}]}],
     "stations": [{"name": "s", "line": "l", "unit": 1, "response_timeout_ms": 100, "retries": 0},
                  {"name": "t", "line": "l", "unit": 2}],
     "routes": [{"name": "r", "station": "s", "table": "input", "first": 0, "count": 2, "plc": "a", "device": "D100",
                 "direction": "read", "period_ms": 500}],
-    "modbus_tcp": [{"listen": "127.0.0.1", "port": 1502, "units": [{"unit": 1, "plc": "a"}, {"unit": 2, "plc": "b"}],
-                    "other_units": "a", "max_clients": 10}],
+    "modbus_tcp": [{"listen": "127.0.0.1", "port": 1502, "units": [{"unit": 1, "plc": "a"}, {"unit": 2, "line": "m", "line_unit": 3, "plc": "", "channel": 1}],
+                    "other_units": "a", "max_clients": 10, "idle_timeout_s": 60}],
     "dds": {"enabled": True, "domain": 3, "interface": "lo", "peers": ["10.0.0.1"], "partition": "plant", "member": "m",
             "longest_silence_ms": 500, "blocks": [{"plc": "a", "device": "D0", "count": 4}]},
     "log": {"level": "info"},
+    "control": {"socket": "control.sock"},
 }
 FILES = {"setup.txt": "LD M8411\n"}
 
@@ -172,14 +178,15 @@ class EveryKey(unittest.TestCase):
                     self.assertIn(f'{mistake["pointer"]} has no "{missing[mistake["pointer"]]}"', line)
 
     def test_optional_keys(self):
-        """Without all of them, lists and objects apart, the file is still correct."""
+        """Without all of them, lists and objects apart, the file can still be read."""
         config = copy.deepcopy(FULL)
         for path, schema in reversed(list(walk(SCHEMA, FULL))):
             for key in set(schema.get("properties", {})) - set(schema.get("required", [])):
                 if not isinstance(at(config, path).get(key), (list, dict)):
                     at(config, path).pop(key, None)
         self.assertEqual(schema_pointers(config), set())
-        self.assertEqual(self.check(config).lines, [])
+        # What a line or unit needs depends on what it is: that is for the cross-checks.
+        self.assertEqual([line for line in self.check(config).lines if READER.search(line.split(": ", 1)[-1])], [])
 
     def test_unknown_keys(self):
         """One in every object at once."""
@@ -231,8 +238,6 @@ WRONG = {
     "a quoted number": '{"dds": {"domain": "0"}}',
     "a fraction": '{"dds": {"domain": 0.5}}',
     "a quoted boolean": '{"dds": {"enabled": "false"}}',
-    "a line without a port": '{"lines": [{"name": "l"}]}',
-    "a line with an empty port": '{"lines": [{"name": "l", "device": ""}]}',
     "parity in capitals": '{"lines": [{"name": "l", "device": "d", "parity": "None"}]}',
     "three stop bits": '{"lines": [{"name": "l", "device": "d", "stop_bits": 3}]}',
     "one and a half stop bits": '{"lines": [{"name": "l", "device": "d", "stop_bits": 1.5}]}',
@@ -243,6 +248,15 @@ WRONG = {
 
 # JSON Schema cannot say these: an editor stays silent, `check` does not.
 ONLY_CHECK = {
+    "a line without a port": '{"lines": [{"name": "l"}]}',
+    "a line with an empty port": '{"lines": [{"name": "l", "device": ""}]}',
+    "a TCP line without a host": '{"lines": [{"name": "l", "protocol": "modbus-tcp"}]}',
+    "a server line that serves nobody": '{"lines": [{"name": "l", "device": "d", "role": "server"}]}',
+    "a unit that leads nowhere": '{"modbus_tcp": [{"units": [{"unit": 1}]}]}',
+    "a channel on a server line": '{"plcs": [{"name": "a", "channels": [{"channel": 1, "line": "l"}]}], "lines": '
+                                  '[{"name": "l", "device": "d", "role": "server", "units": [{"unit": 1, "plc": "a"}]}]}',
+    "a channel that an FX3S lacks": '{"plcs": [{"name": "a", "model": "FX3S"}], "lines": [{"name": "l", "device": "d", '
+                                    '"role": "server", "units": [{"unit": 1, "plc": "a", "channel": 2}]}]}',
     "a key that stands twice": '{"gateway": "a", "gateway": "b"}',
     "64 letters in more bytes": '{"gateway": "' + "ü" * 64 + '"}',
     "a line break in a name": '{"gateway": "a\\nb"}',

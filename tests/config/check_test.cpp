@@ -58,7 +58,7 @@ TEST_CASE("check: things that stand twice")
         {R"("unit": 0 })", R"("unit": 1 })",
          R"(31 /stations/1/unit is already the unit id of station "pump" on the same line)"},
         {R"("unit": 2, "plc": "spare")", R"("unit": 1, "plc": "spare")",
-         "65 /modbus_tcp/0/units/1/unit stands twice: a unit id leads to one PLC"},
+         "65 /modbus_tcp/0/units/1/unit stands twice: a unit id leads to one place"},
         {R"("device": "/dev/ttyUSB1")", R"("device": "/dev/ttyUSB0")",
          R"(22 /lines/1/device is already the device of line "north": a port belongs to one line)"},
         {R"("device": "/dev/ttyUSB1")", R"("device": "/dev/./serial/..//ttyUSB0")",
@@ -188,7 +188,8 @@ TEST_CASE("check: lines and PLC models")
         {R"("data_bits": 8)", R"("data_bits": 7)", "17 /lines/0/data_bits is 7, but MODBUS RTU needs 8 data bits"},
         {R"("model": "FX3U")", R"("model": "FX3UC")", ""},
         {R"("model": "FX3U")", R"("model": "fx3u")", ""},
-        {R"("model": "FX3U")", R"("model": "FX5U")", R"(5 /plcs/0/model is "FX5U", expected one of: FX3U, FX3UC)"},
+        {R"("model": "FX3U")", R"("model": "FX5U")",
+         R"(5 /plcs/0/model is "FX5U", expected one of: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22, LS32)"},
     };
     for (const change_row& row : rows)
         check_row(row);

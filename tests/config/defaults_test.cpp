@@ -144,7 +144,9 @@ TEST_CASE("defaults: rows with their required keys alone")
     CHECK(config["routes"][0] == route);
 
     json server = written_defaults<tcp_server_config>();
-    server["units"] = json::array({{{"unit", 4}, {"plc", "a"}}});
+    json unit = written_defaults<unit_config>();
+    unit.update({{"unit", 4}, {"plc", "a"}});
+    server["units"] = json::array({unit});
     CHECK(config["modbus_tcp"][0] == server);
 
     json block = written_defaults<block_config>();

@@ -45,7 +45,7 @@ TEST_CASE("check: mistakes of a setup program stand on their line")
 {
     const change_row rows[] = {
         {"\"MOV K0 D8471\"", "\"MOVE K0 D8471\"",
-         "9 /plcs/0/program/2 unknown instruction \"MOVE\": a setup program holds LD, MOV and END"},
+         "9 /plcs/0/program/2 unknown instruction \"MOVE\": a program holds LD, MOV, ADPRW and END"},
         {"\"MOV K0 D8471\"", "\"MOV K0\"",
          "9 /plcs/0/program/2 MOV takes a constant and a device, for example MOV K10 D8411"},
         {"\"MOV K0 D8471\"", "\"MOV K70000 D8471\"",
@@ -58,7 +58,7 @@ TEST_CASE("check: mistakes of a setup program stand on their line")
          "7 /plcs/0/program/0 LD takes one device, for example LD M8411\n"
          "8 /plcs/0/program/1 MOV stands above LD M8411\n9 /plcs/0/program/2 MOV stands above LD M8411"},
         {"\"MOV K0 D8471\"", "\"\", \"  ; comment\",\n\n\"MOVE\"",
-         "11 /plcs/0/program/4 unknown instruction \"MOVE\": a setup program holds LD, MOV and END"},
+         "11 /plcs/0/program/4 unknown instruction \"MOVE\": a program holds LD, MOV, ADPRW and END"},
         {"\"MOV K0 D8471\"", "\"MOV K0 D8471\\nMOVE\"",
          "9 /plcs/0/program/2 is \"MOV K0 D8471\\nMOVE\", expected a text without line breaks and control characters"},
         {"\"MOV K0 D8471\"", "\"MOV\\tK0\\tD8471\\t; tabs\"", ""},
@@ -106,8 +106,8 @@ TEST_CASE("check: program_file is relative to the configuration")
           "3 /plcs/0/program_file names \"programs\", which cannot be read");
     CHECK(
         said(with_file("programs/bad.txt"), folder.path) ==
-        "3 /plcs/0/program_file programs/bad.txt line 3: unknown instruction \"MOVE\": a setup program holds LD, MOV "
-        "and END\n"
+        "3 /plcs/0/program_file programs/bad.txt line 3: unknown instruction \"MOVE\": a program holds LD, MOV, "
+        "ADPRW and END\n"
         "3 /plcs/0/program_file programs/bad.txt line 4: MOV takes a constant and a device, for example MOV K10 D8411");
     CHECK(
         said(with_file("fault.txt"), folder.path) ==

@@ -79,7 +79,7 @@ TEST_CASE("reader: wrong values of each type")
         {R"("parity": "none")", R"("parity": "")", R"(18 /lines/0/parity is "", expected one of: none, odd, even)"},
         {R"("parity": "none")", R"("parity": 0)", "18 /lines/0/parity is 0, expected one of: none, odd, even"},
         {R"("parity": "none")", R"("parity": "none", "protocol": "profibus")",
-         R"(18 /lines/0/protocol is "profibus", expected one of: modbus-rtu)"},
+         R"(18 /lines/0/protocol is "profibus", expected one of: modbus-rtu, modbus-tcp)"},
         {R"("table": "discrete")", R"("table": "coils")",
          R"(54 /routes/2/table is "coils", expected one of: coil, discrete, input, holding)"},
         {R"("level": "debug")", R"("level": "verbose")",
@@ -155,7 +155,8 @@ TEST_CASE("reader: unknown keys")
          "19 /lines/0/rs485/auto is no known key: known are enabled, rts_on_send, rts_after_send, rx_during_tx, "
          "delay_before_send_ms, delay_after_send_ms"},
         {R"("log": {)", R"("zzz": 0, "log": {)",
-         "79 /zzz is no known key: known are $schema, gateway, plcs, lines, stations, routes, modbus_tcp, dds, log"},
+         "79 /zzz is no known key: known are $schema, gateway, plcs, lines, stations, routes, modbus_tcp, dds, log, "
+         "control"},
         // The value of an unknown key is not looked into.
         {R"("level": "debug")", R"("level": "debug", "colour": { "baudrate": [ {} ] })",
          "79 /log/colour is no known key: known are level"},
@@ -168,8 +169,7 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
 {
     const change_row rows[] = {
         {R"({ "name": "spare" })", "{}", "11 /plcs/1 has no \"name\": Name of the simulated PLC"},
-        {R"("device": "/dev/ttyUSB1")", R"("retries": 1)",
-         "21 /lines/1 has no \"device\": Serial port, best a stable name such as /dev/serial/by-id/..."},
+        {R"("device": "/dev/ttyUSB1")", R"("retries": 1)", "21 /lines/1 lacks \"device\": the path of a serial port"},
         {R"({ "unit": 2, "plc": "spare" })", R"({ "plc": "spare" })",
          "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id"},
         {R"({ "plc": "main", "device": "M0" })", "{}",
@@ -215,7 +215,7 @@ TEST_CASE("reader: all mistakes of a file at once, in the order of its lines")
     CHECK(load_text(text, {}).found.size() == 12);
     CHECK(said(text) ==
           "2 /gateway is 5, expected a text in quotes\n"
-          "9 /plcs/0/program/2 unknown instruction \"MUV\": a setup program holds LD, MOV and END\n"
+          "9 /plcs/0/program/2 unknown instruction \"MUV\": a program holds LD, MOV, ADPRW and END\n"
           "16 /lines/0/baudrate is no known key: did you mean \"baud_rate\"?\n"
           "17 /lines/0/data_bits is 7, but MODBUS RTU needs 8 data bits\n"
           "18 /lines/0/parity is \"mark\", expected one of: none, odd, even\n"

@@ -264,7 +264,19 @@ class InteropTest(unittest.TestCase):
                                 "units": [{"unit": i + 1, "plc": name} for i, name in enumerate(units)]}],
                 "dds": {"domain": 1 + os.getpid() % 100, "interface": "lo",
                         "partition": f"interop.{os.getpid()}.{id(self)}", **(dds or {})},
+                "control": {"socket": str(self.control_socket)},
                 **more}
+
+    @property
+    def control_socket(self):
+        return self.folder / "control.sock"
+
+    def plc_command(self, *words):
+        """plc-gateway plc: its exit status, output and errors."""
+        done = subprocess.run([binary("PLC_GATEWAY"), "plc", *words, "--socket", self.control_socket], text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              timeout=PATIENCE, check=False)
+        return done.returncode, done.stdout, done.stderr
 
     def write(self, configuration):
         path = self.folder / "gateway.json"
@@ -305,6 +317,11 @@ def mbpoll(port, table, first, count=1, write=(), unit=1):
     """mbpoll on MODBUS TCP; table is its -t, addresses are zero-based. Returns what it read."""
     command = ["mbpoll", "-m", "tcp", "-p", port, "-a", unit, "-t", table, "-0", "-r", first,
                *([] if write else ["-c", count]), "-1", "-o", "10", "127.0.0.1", *write]
+    return mbpoll_values(command)
+
+
+def mbpoll_values(command):
+    """Runs an mbpoll command. Returns what it read."""
     done = subprocess.run([str(word) for word in command], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, timeout=PATIENCE, check=False)
     if done.returncode != 0:

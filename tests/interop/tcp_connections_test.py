@@ -3,8 +3,9 @@
 import socket
 import struct
 import threading
+import time
 
-from support import PATIENCE, InteropTest, main, wait_for
+from support import PATIENCE, Client, InteropTest, main, wait_for
 
 
 def adu(transaction, pdu, unit=1, protocol=0, length=None):
@@ -185,6 +186,17 @@ class TcpConnectionsTest(InteropTest):
         for value in range(20):
             bystander.write_register(0, value)
             self.assertEqual(bystander.holding(0), [value])
+
+    def test_idle_timeout(self):
+        configuration = self.configuration()
+        configuration["modbus_tcp"][0]["idle_timeout_s"] = 1
+        port = self.start_gateway(configuration).port
+        with socket.create_connection(("127.0.0.1", port), timeout=PATIENCE) as silent:
+            busy = Client(self, port)
+            for _ in range(4):
+                time.sleep(0.4)
+                self.assertEqual(busy.holding(0), [0])
+            self.assertEqual(silent.recv(1), b"")
 
     def accepted(self):
         """Connects until a request is answered, and leaves again."""

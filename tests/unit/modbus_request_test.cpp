@@ -90,7 +90,8 @@ TEST_CASE("modbus request: bits behind the last coil are not looked at")
 
 TEST_CASE("modbus request: an unknown function code answers exception 01, whatever follows")
 {
-    const std::uint8_t known[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x0F, 0x10, 0x16, 0x17};
+    const std::uint8_t known[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x07, 0x08,
+                                  0x0B, 0x0C, 0x0F, 0x10, 0x11, 0x16, 0x17};
     for (unsigned code = 0; code < 256; ++code) {
         if (std::find(std::begin(known), std::end(known), code) != std::end(known))
             continue;

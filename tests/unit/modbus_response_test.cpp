@@ -65,7 +65,7 @@ TEST_CASE("modbus response: each question with its answer, both ways")
     for (const response_row& row : rows) {
         CAPTURE(row.name);
         CHECK(encode_response(row.question, row.answer) == row.pdu);
-        CHECK(response_size(row.question) == row.pdu.size());
+        CHECK(response_size(row.question, row.pdu) == row.pdu.size());
         const auto parsed = parse_response(row.question, row.pdu);
         REQUIRE(parsed.has_value());
         CHECK(*parsed == row.answer);
@@ -126,8 +126,8 @@ TEST_CASE("modbus response: the largest answers fit into a PDU")
 {
     const request most_bits = read_table{table::coils, address{0}, max_read_bits};
     const request most_registers = read_table{table::input_registers, address{0}, max_read_registers};
-    CHECK(response_size(most_bits) == 252);
-    CHECK(response_size(most_registers) == 252);
+    CHECK(response_size(most_bits, {}) == 252);
+    CHECK(response_size(most_registers, {}) == 252);
 
     const response all_on = bits_read{std::vector<bool>(max_read_bits, true)};
     const response all_set = registers_read{std::vector<std::uint16_t>(max_read_registers, 0xFFFF)};

@@ -34,7 +34,7 @@ TEST_CASE("model: each default map row lies within one area, and no number leads
             CHECK(row.count > 0);
             CHECK(row.first + row.count <= 0x10000);
             const std::size_t bits = modbus::is_bit_table(row.table) ? row.count : std::size_t{16} * row.count;
-            CHECK(bits <= devices.bits_from(*head));
+            CHECK(bits <= (devices.bits_from(*head) + 15) / 16 * 16);  // FX3S: TS and Y end inside a register
             if (before != nullptr && before->table == row.table)
                 CHECK(before->first + before->count <= row.first);
             before = &row;

@@ -161,6 +161,41 @@ TEST_CASE("rtu transaction: a late answer to the first attempt is taken, and the
     CHECK(t.line_free_from() == first_end + 600ms + gap);  // for other stations: the schedule holds this one back
 }
 
+TEST_CASE("rtu transaction: the echo of a read is left out, and does not end the wait for the answer")
+{
+    rtu_transaction t(unit, question, timing, t0, t0);
+    REQUIRE(sends(t, t0, asked));
+    t.feed(t0 + 5ms, asked);
+    CHECK(waits(t, t0 + 300ms) == t0 + on_wire + 500ms);
+    CHECK(t.echo_seen());
+    t.feed(t0 + 300ms, answer);
+    REQUIRE(is_done(t, t0 + 300ms));
+    CHECK(t.outcome().value() == values);
+    CHECK(t.unanswered() == 0);
+}
+
+TEST_CASE("rtu transaction: on a line with echo, the echo of a write is no answer")
+{
+    const request write = write_single_register{address{7}, 1234};
+    const buffer adu = encode_rtu({unit, encode_request(write)});
+    rtu_timing echoing = timing;
+    echoing.echo = local_echo::on;
+    echoing.retries = 0;
+
+    rtu_transaction dead(unit, write, echoing, t0, t0);
+    REQUIRE(sends(dead, t0, adu));
+    dead.feed(t0 + 5ms, adu);
+    REQUIRE(is_done(dead, t0 + 1s));
+    CHECK(dead.outcome().error() == errc::timed_out);
+
+    rtu_transaction alive(unit, write, echoing, t0, t0);
+    REQUIRE(sends(alive, t0, adu));
+    alive.feed(t0 + 5ms, adu);
+    alive.feed(t0 + 20ms, adu);
+    REQUIRE(is_done(alive, t0 + 20ms));
+    CHECK(alive.outcome().value() == response{written{}});
+}
+
 TEST_CASE("rtu transaction: babble after the request ends every attempt, and then the transaction")
 {
     for (const duration pause : {1ms, 10ms, 19ms}) {

@@ -45,7 +45,9 @@ TEST_CASE("rtu transaction: an answer in pieces ends it with the last piece, eac
     for (std::size_t i = 0; i < answer.size(); ++i) {
         const time_point now = t0 + 20ms + i * 15ms;
         t.feed(now, bytes(answer).subspan(i, 1));
-        if (i + 1 < answer.size())
+        if (i < 2)  // so far it may be the echo of the request
+            CHECK(waits(t, now) == t0 + on_wire + timing.response_timeout);
+        else if (i + 1 < answer.size())
             CHECK(waits(t, now) == now + timing.silence);
         else
             CHECK(is_done(t, now));
@@ -155,7 +157,7 @@ TEST_CASE("rtu transaction: a broadcast is not answered, the stations get their 
     REQUIRE(encode_rtu({unit_id::broadcast, encode_request(all_off)}) == adu);
     REQUIRE(sends(t, t0, adu));
     REQUIRE(is_done(t, t0));
-    CHECK(t.outcome().value() == response{written{}});
+    CHECK(t.outcome().value() == response{no_response{}});
     CHECK(t.line_free_from() == t0 + broadcast_on_wire + 100ms);
 
     rtu_timing hasty = timing;

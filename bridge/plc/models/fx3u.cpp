@@ -1,5 +1,7 @@
 #include "bridge/plc/models/fx3u.hpp"
 
+#include "bridge/plc/models/functions.hpp"
+
 namespace plcgw::plc {
 namespace {
 
@@ -68,26 +70,27 @@ constexpr map_row standard_map[] = {
     {holding_registers, 0xA798,     16, {cs, 0}},
     {holding_registers, 0xA7A8,     16, {y, 0}},
 };
-
 // clang-format on
 
-// FX3 manual 7.1 lists 07, 08, 0B, 0C and 11 as well: they belong to a serial line and are not answered over TCP.
-constexpr modbus::function functions[] = {
-    modbus::function::read_coils,
-    modbus::function::read_discrete_inputs,
-    modbus::function::read_holding_registers,
-    modbus::function::read_input_registers,
-    modbus::function::write_single_coil,
-    modbus::function::write_single_register,
-    modbus::function::write_multiple_coils,
-    modbus::function::write_multiple_registers,
-    modbus::function::mask_write_register,
-    modbus::function::read_write_multiple_registers,
-};
+constexpr model made(std::string_view name)
+{
+    return {.name = name,
+            .areas = areas,
+            .standard_map = standard_map,
+            .functions = fx3u_functions_over_tcp,
+            .user_defined_map = true,
+            .serial_functions = fx3u_functions,
+            .channels = fx3u_channels,
+            .one_channel = true,
+            .ascii = true,
+            .errors = error_style::fx3,
+            .format = format_style::fx3,
+            .timers = timer_names::contact_and_value};
+}
 
 }  // namespace
 
-const model fx3u{"FX3U", areas, standard_map, functions, true};
-const model fx3uc{"FX3UC", areas, standard_map, functions, true};
+constinit const model fx3u = made("FX3U");
+constinit const model fx3uc = made("FX3UC");
 
 }  // namespace plcgw::plc

@@ -1,0 +1,43 @@
+// Lets a coroutine ask a station of a line, and wait for its answer while the line does its other work.
+#pragma once
+
+#include "bridge/routes/modbus_line.hpp"
+#include "daemon/line_driver.hpp"
+#include "daemon/read_before.hpp"
+
+#include <map>
+#include <memory>
+
+namespace plcgw {
+
+class forward_gate {
+public:
+    forward_gate(asio::any_io_executor executor, modbus_line& line, line_driver& driver)
+        : executor_(std::move(executor)), line_(line), driver_(driver)
+    {
+    }
+
+    // Nothing when too many requests wait already. timing: of the station or line, if absent.
+    asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
+                                                                 std::optional<modbus::rtu_timing> timing);
+
+    void deliver();  // answers that the line has by now
+
+private:
+    struct waiting {
+        explicit waiting(const asio::any_io_executor& executor) : done(executor) {}
+        asio::steady_timer done;  // never expires, cancelled when the answer is there
+        std::optional<result<modbus::response>> answer;
+    };
+
+    asio::any_io_executor executor_;
+    modbus_line& line_;
+    line_driver& driver_;
+    std::map<forward_ticket, std::shared_ptr<waiting>> waiting_;
+};
+
+// What a gateway tells its client (V1.1b3 chapter 7): the answer, 06 when too many wait, 0A when the port is absent, 0B
+// when nobody answers.
+modbus::response as_response(const std::optional<result<modbus::response>>& answer);
+
+}  // namespace plcgw

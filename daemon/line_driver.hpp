@@ -1,0 +1,15 @@
+// What the gateway needs to know of whatever carries a line's requests: a serial port or a TCP connection.
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+
+namespace plcgw {
+
+class line_driver {
+public:
+    virtual ~line_driver() = default;
+    virtual boost::asio::awaitable<void> run() = 0;  // until the io_context ends
+    virtual void wake() = 0;                         // something is due at once
+};
+
+}  // namespace plcgw

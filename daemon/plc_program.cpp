@@ -1,0 +1,62 @@
+#include "daemon/plc_program.hpp"
+
+#include <algorithm>
+
+namespace plcgw {
+namespace {
+
+constexpr duration longest_pause = std::chrono::seconds(1);
+
+plc::adprw_outcome outcome_of(const plc::adprw_question& question,
+                              const std::optional<result<modbus::response>>& answer)
+{
+    if (!answer)  // too many others wait for the line
+        return plc::failure_of(make_error_code(errc::timed_out), question.unit, question.request);
+    if (!*answer)
+        return plc::failure_of(answer->error(), question.unit, question.request);
+    return **answer;
+}
+
+}  // namespace
+
+plc_program::plc_program(asio::io_context& loop, plc::adprw_runner runner, forward_gate& line,
+                         const modbus::rtu_timing& timing, std::function<void()> settle)
+    : runner_(std::move(runner)), line_(line), timing_(timing), settle_(std::move(settle)), pause_(loop)
+{
+}
+
+void plc_program::look()
+{
+    runner_.scan();
+    pause_.cancel();
+}
+
+asio::awaitable<void> plc_program::run()
+{
+    for (;;) {
+        std::optional<plc::adprw_question> question = runner_.next(now());
+        settle_();  // also a refused instruction changes devices
+        if (question) {
+            co_await ask(std::move(*question));
+            continue;
+        }
+        const time_point wake = std::min(runner_.wake_at(now()), now() + longest_pause);
+        pause_.expires_at(wake);
+        co_await pause_.async_wait(no_throw);
+    }
+}
+
+asio::awaitable<void> plc_program::ask(plc::adprw_question question)
+{
+    modbus::rtu_timing timing = timing_;
+    timing.response_timeout = question.timing.response_timeout;
+    timing.turnaround = question.timing.turnaround;
+    timing.gap = question.timing.message_delay;
+    timing.retries = question.timing.retries;
+    runner_.attempt_started(question, 0);
+    const auto answer = co_await line_.ask(question.unit, question.request, timing);
+    runner_.finished(question, outcome_of(question, answer), now());
+    settle_();
+}
+
+}  // namespace plcgw

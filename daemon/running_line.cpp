@@ -1,0 +1,79 @@
+#include "daemon/running_line.hpp"
+
+#include "daemon/serial_line.hpp"
+#include "daemon/tcp_line.hpp"
+
+#include <algorithm>
+
+namespace plcgw {
+namespace {
+
+std::vector<station> stations_of(const gateway_config& all, const line_config& line)
+{
+    std::vector<station> stations;
+    for (const station_config& each : all.stations)
+        if (each.line == line.name)
+            stations.push_back(
+                {each.name, modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, timing_of(line, each)});
+    return stations;
+}
+
+std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const line_config& line, modbus_line& routes,
+                                         std::function<void()> settle)
+{
+    if (line.protocol == line_protocol::modbus_tcp)
+        return std::make_unique<tcp_line>(loop, line, routes, std::move(settle));
+    return std::make_unique<serial_line>(loop, line, routes, std::move(settle));
+}
+
+route make_route(const route_config& from, const find_plc& plc)
+{
+    route r;
+    r.name = from.name;
+    r.plc = &plc(from.plc);
+    r.at = *r.plc->memory().find(*plc::parse_device(from.device));
+    r.table = from.table;
+    r.first = modbus::address{static_cast<std::uint16_t>(from.first)};
+    r.count = static_cast<std::uint16_t>(from.count);
+    r.way = from.way;
+    return r;
+}
+
+}  // namespace
+
+modbus::rtu_timing timing_of(const line_config& line)
+{
+    return {.format = {line.baud_rate, line.data_bits, line.check, line.stop_bits},
+            .response_timeout = line.response_timeout,
+            .retries = line.retries,
+            .turnaround = line.turnaround_delay,
+            .gap = line.gap,
+            .silence = line.silence,
+            .echo = line.rs485.enabled && line.rs485.rx_during_tx ? local_echo::on : line.echo};
+}
+
+modbus::rtu_timing timing_of(const line_config& line, const station_config& station)
+{
+    modbus::rtu_timing timing = timing_of(line);
+    timing.response_timeout = station.response_timeout.value_or(line.response_timeout);
+    timing.retries = station.retries.value_or(line.retries);
+    return timing;
+}
+
+running_line::running_line(boost::asio::io_context& loop, const gateway_config& all, const line_config& line,
+                           const find_plc& plc, std::function<void()> settle)
+    : config(line), routes(line.name, stations_of(all, line), all.dds.longest_silence, timing_of(line)),
+      driver(make_driver(loop, line, routes, std::move(settle))), gate(loop.get_executor(), routes, *driver)
+{
+    std::size_t station = 0;
+    for (const station_config& each : all.stations) {
+        if (each.line != line.name)
+            continue;
+        for (const route_config& from : all.routes)
+            if (from.station == each.name)
+                routes.add_route(make_route(from, plc), station, from.period);
+        ++station;
+    }
+}
+
+}  // namespace plcgw

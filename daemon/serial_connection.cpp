@@ -1,0 +1,103 @@
+#include "daemon/serial_connection.hpp"
+
+#include "daemon/log.hpp"
+#include "daemon/serial_port.hpp"
+
+#include <boost/asio/write.hpp>
+
+#include <algorithm>
+#include <unistd.h>
+
+namespace plcgw {
+namespace {
+
+using boost::system::error_code;
+
+constexpr milliseconds first_pause{200};
+constexpr milliseconds last_pause{2000};
+constexpr milliseconds write_slack{1000};
+constexpr duration short_life = std::chrono::milliseconds(100);
+
+}  // namespace
+
+character_format format_of(const line_config& line)
+{
+    return {line.baud_rate, line.data_bits, line.check, line.stop_bits};
+}
+
+serial_connection::serial_connection(asio::io_context& loop, const line_config& line)
+    : port(loop), guard(port), line_(line), pause_(loop), next_pause_(first_pause)
+{
+}
+
+serial_connection::~serial_connection()
+{
+    if (port.is_open())
+        forget_output(port.native_handle());
+}
+
+asio::awaitable<bool> serial_connection::open()
+{
+    if (!std::exchange(failed_at_once_, false)) {
+        const error_code ec = try_open();
+        if (!ec)
+            co_return true;
+        if (ec != last_error_)
+            log::warning("line {}: {} cannot be opened ({}): it is tried again until it is there", line_.name,
+                         line_.device, ec.message());
+        last_error_ = ec;
+    }
+    pause_.expires_after(next_pause_);
+    next_pause_ = std::min(2 * next_pause_, last_pause);
+    co_await pause_.async_wait(no_throw);
+    co_return false;
+}
+
+error_code serial_connection::try_open()
+{
+    std::string warning;
+    const auto fd = open_serial_port(line_, warning);
+    if (!fd)
+        return fd.error();
+    error_code ec;
+    if (port.assign(*fd, ec); ec) {
+        ::close(*fd);
+        return ec;
+    }
+    opened_at_ = now();
+    log::info("line {}: {} is open, {} {}{}{}", line_.name, line_.device, line_.baud_rate, line_.data_bits,
+              line_.check == parity::none  ? 'N'
+              : line_.check == parity::odd ? 'O'
+                                           : 'E',
+              line_.stop_bits);
+    if (!warning.empty())
+        log::warning("line {}: {}: {}", line_.name, line_.device, warning);
+    return {};
+}
+
+void serial_connection::close(const error_code& why)
+{
+    error_code ignored;
+    forget_output(port.native_handle());
+    port.close(ignored);
+    // A half-dead adapter opens and fails at once, again and again: that is a back-off, too, and said once.
+    failed_at_once_ = now() - opened_at_ < short_life;
+    if (!failed_at_once_ || last_error_ != why)
+        log::warning("line {}: {} was lost ({}): it is reopened when it comes back", line_.name, line_.device,
+                     why.message());
+    last_error_ = why;
+    if (!failed_at_once_)
+        next_pause_ = first_pause;
+}
+
+asio::awaitable<error_code> serial_connection::write(bytes adu)
+{
+    guard.arm(now() + character_time(format_of(line_), adu.size()) + write_slack);
+    const auto [ec, size] = co_await asio::async_write(port, asio::buffer(adu.data(), adu.size()), no_throw);
+    const bool cut_short = guard.disarm();
+    if (ec == asio::error::operation_aborted && cut_short)
+        co_return error_code(asio::error::timed_out);
+    co_return ec;
+}
+
+}  // namespace plcgw

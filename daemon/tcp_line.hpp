@@ -1,0 +1,58 @@
+// A MODBUS TCP connection as a line: one connection for many units, several requests under way when the server takes
+// them.
+#pragma once
+
+#include "bridge/routes/modbus_line.hpp"
+#include "daemon/config/config.hpp"
+#include "daemon/line_driver.hpp"
+#include "daemon/read_before.hpp"
+#include "protocols/modbus/tcp_questions.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+
+#include <array>
+#include <functional>
+#include <map>
+
+namespace plcgw {
+
+class tcp_line final : public line_driver {
+public:
+    // settle: called after answers, to drain what they changed.
+    tcp_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle);
+
+    asio::awaitable<void> run() override;
+    void wake() override;
+
+private:
+    struct under_way {
+        modbus_line::question question;
+        unsigned attempts = 0;
+    };
+    using key = modbus::tcp_questions::key;
+
+    asio::awaitable<boost::system::error_code> serve();  // until the connection fails
+    asio::awaitable<boost::system::error_code> listen();
+    void ask_what_is_due(buffer& out);
+    void ask(key who, buffer& out);
+    void ask_again_or_fail(buffer& out);
+    bool take_answers(bytes received);  // false when the stream is no MODBUS TCP
+    void finish(const modbus::tcp_questions::outcome& outcome);
+    void give_up_all();
+
+    line_config config_;
+    modbus_line& routes_;
+    std::function<void()> settle_;
+    asio::ip::tcp::socket socket_;
+    deadline_guard<asio::ip::tcp::socket> guard_;
+    asio::steady_timer reconnect_;
+    modbus::mbap_framer in_;
+    modbus::tcp_questions open_;
+    std::map<key, under_way> questions_;
+    std::uint32_t last_key_ = 0;
+    std::array<std::uint8_t, 4096> received_{};
+    bool idle_ = false;
+};
+
+}  // namespace plcgw

@@ -1,0 +1,143 @@
+"""MODBUS TCP clients reach the devices of a line through the gateway, while it polls them."""
+
+import socket
+import threading
+import time
+
+from support import InteropTest, Refused, main, route, serial_line, station
+
+
+class ForwardingTest(InteropTest):
+    # A period is long enough for one time-out in between: no route becomes stale.
+    def start(self, **listener):
+        """Devices 1 and 2 on the line; units 11, 12 and 13 lead to units 1, 2 and 9 of it, 14 to a line without port."""
+        self.bus = self.start_bus(3)
+        self.devices = [self.start_device(i, i, "--set", f"hr:0={100 * i}", "--set", f"hr:50={i}") for i in (1, 2)]
+        configuration = self.configuration(
+            lines=[serial_line(self.folder / "line", response_timeout_ms=300, retries=0),
+                   {**serial_line(self.folder / "absent"), "name": "gone"}],
+            stations=[station("one", 1), station("two", 2)],
+            routes=[route("one.low", "holding", 0, "D100", 2, period_ms=200),
+                    route("two.low", "holding", 0, "D110", 2, period_ms=200)])
+        configuration["modbus_tcp"][0]["units"] += [
+            {"unit": 11, "line": "line", "line_unit": 1}, {"unit": 12, "line": "line", "line_unit": 2},
+            {"unit": 13, "line": "line", "line_unit": 9}, {"unit": 14, "line": "gone", "line_unit": 1}]
+        configuration["modbus_tcp"][0].update(listener)
+        self.gateway = self.start_gateway(configuration)
+        self.watch = self.gateway.watch()
+        self.watch.expect("one.low", quality="good", values=[100, 0])
+        self.watch.expect("two.low", quality="good", values=[200, 0])
+
+    def refused(self, code, call, *arguments):
+        with self.assertRaises(Refused) as raised:
+            call(*arguments)
+        self.assertEqual(raised.exception.code, code)
+
+    def expect_good_all_along(self):
+        for name in ("one.low", "two.low"):
+            self.assertEqual({each["quality"] for each in self.watch.of(name)[1:]} - {"good"}, set(), name)
+
+    def test_values_are_those_of_the_side_door(self):
+        self.start()
+        for device, unit in zip(self.devices, (11, 12)):
+            client = self.gateway.client(unit)
+            device.door.write_registers(20, [unit, 2, 3])
+            device.door.write_coils(5, [1, 0, 1])
+            self.assertEqual(client.holding(20, 3), [unit, 2, 3])
+            self.assertEqual(client.coils(5, 3), [1, 0, 1])
+            self.assertEqual(client.discrete(0, 16), device.door.discrete(0, 16))
+            self.assertEqual(client.input(0, 10), device.door.input(0, 10))
+            self.assertEqual(client.holding(0, 125), device.door.holding(0, 125))
+            client.write_register(30, 0xABCD)
+            client.write_registers(31, [1, 2])
+            client.write_coil(40, 1)
+            client.write_coils(41, [1, 0, 1])
+            self.assertEqual(device.door.holding(30, 3), [0xABCD, 1, 2])
+            self.assertEqual(device.door.coils(40, 4), [1, 1, 0, 1])
+            answer = client.do(client.modbus.readwrite_registers(read_address=30, read_count=2, write_address=31,
+                                                                 write_registers=[9], unit=unit))
+            self.assertEqual(answer.registers, [0xABCD, 9])
+            self.refused(2, client.holding, 60000)
+        self.assertEqual(self.gateway.client(1).holding(100, 2), [100, 0])
+        self.expect_good_all_along()
+
+    def test_what_cannot_be_reached(self):
+        self.start()
+        self.refused(0x0B, self.gateway.client(13).holding, 0)
+        self.refused(0x0A, self.gateway.client(14).holding, 0)
+        self.refused(0x0A, self.gateway.client(15).holding, 0)  # leads nowhere
+        self.assertEqual(self.gateway.client(11).holding(50), [1])
+        self.expect_good_all_along()
+
+    def test_other_units(self):
+        self.start(other_units="line")
+        self.assertEqual(self.gateway.client(2).holding(50), [2])
+        self.refused(0x0B, self.gateway.client(77).holding, 0)
+        self.assertEqual(self.gateway.client(1).holding(100), [100])  # the PLC
+
+    def test_several_clients_at_once(self):
+        self.start()
+        wrong, answers = [], []
+
+        def ask(unit, at):
+            client = self.gateway.client(unit)
+            until = time.monotonic() + 3
+            while time.monotonic() < until:
+                for number in range(5):
+                    client.write_register(at, number)
+                    found = client.holding(at)
+                    answers.append(unit)
+                    if found != [number]:
+                        wrong.append((unit, at, number, found))
+
+        def guarded(*arguments):
+            try:
+                ask(*arguments)
+            except Exception as error:  # pylint: disable=broad-except
+                wrong.append(error)
+
+        clients = [threading.Thread(target=guarded, args=(11 + i % 2, 60 + i)) for i in range(6)]
+        for each in clients:
+            each.start()
+        for each in clients:
+            each.join()
+        print(f"{len(answers)} answers")
+        self.assertEqual(wrong, [])
+        self.assertEqual(set(answers), {11, 12})
+        self.devices[0].door.write_register(0, 4711)
+        self.watch.expect("one.low", quality="good", values=[4711, 0])
+        self.expect_good_all_along()
+
+    def test_device_that_died(self):
+        self.start()
+        client = self.gateway.client(11)
+        self.assertEqual(client.holding(50), [1])
+        self.devices[0].kill()
+        self.refused(0x0B, client.holding, 50)
+        self.watch.expect("one.low", quality="comm error")
+        begun = time.monotonic()
+        self.refused(0x0B, client.holding, 50)
+        self.assertLess(time.monotonic() - begun, 2)
+        self.assertEqual(self.gateway.client(12).holding(50), [2])
+        self.assertEqual(self.watch.latest("two.low")["quality"], "good")
+
+    def test_line_that_is_lost(self):
+        self.start()
+        client = self.gateway.client(11)
+        self.assertEqual(client.holding(50), [1])
+        self.bus.kill()
+        self.watch.expect("one.low", quality="comm error")
+        self.refused(0x0A, client.holding, 50)
+        self.assertEqual(self.gateway.client(1).holding(100), [100])  # the PLC keeps its value
+
+    def test_client_that_leaves_before_its_answer(self):
+        self.start()
+        for _ in range(20):
+            with socket.create_connection(("127.0.0.1", self.gateway.port)) as client:
+                client.sendall(bytes.fromhex("0001 0000 0006 0D 03 0000 0001") * 5)
+        begun = time.monotonic()
+        self.assertEqual(self.gateway.client(11).holding(50), [1])
+        print(f"served after {time.monotonic() - begun:.1f} s")
+
+
+main()
