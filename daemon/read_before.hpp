@@ -11,6 +11,7 @@
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/system/result.hpp>
 
+#include <algorithm>
 #include <unistd.h>
 
 namespace plcgw {
@@ -35,7 +36,9 @@ public:
 
     void arm(time_point deadline)
     {
-        timer_.expires_at(deadline);
+        // time_point::max() means never; as nanoseconds of the timer it would overflow.
+        constexpr duration long_enough = std::chrono::hours(1);
+        timer_.expires_at(std::min(deadline, now() + long_enough));
         timer_.async_wait([this, turn = ++turn_](boost::system::error_code cancelled) {
             if (!cancelled && turn == turn_)  // a late handler must not cancel the next operation
                 cancel();
