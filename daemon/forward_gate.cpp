@@ -3,7 +3,7 @@
 namespace plcgw {
 
 asio::awaitable<std::optional<result<modbus::response>>>
-forward_gate::ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::rtu_timing> timing)
+forward_gate::ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing)
 {
     const auto ticket = line_.forward(unit, std::move(request), std::move(timing));
     if (!ticket)

@@ -19,7 +19,7 @@ public:
 
     // Nothing when too many requests wait already. timing: of the station or line, if absent.
     asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
-                                                                 std::optional<modbus::rtu_timing> timing);
+                                                                 std::optional<modbus::serial_options> timing);
 
     void deliver();  // answers that the line has by now
 

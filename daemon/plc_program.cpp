@@ -20,7 +20,7 @@ plc::adprw_outcome outcome_of(const plc::adprw_question& question,
 }  // namespace
 
 plc_program::plc_program(asio::io_context& loop, plc::adprw_runner runner, forward_gate& line,
-                         const modbus::rtu_timing& timing, std::function<void()> settle)
+                         const modbus::serial_options& timing, std::function<void()> settle)
     : runner_(std::move(runner)), line_(line), timing_(timing), settle_(std::move(settle)), pause_(loop)
 {
 }
@@ -48,7 +48,7 @@ asio::awaitable<void> plc_program::run()
 
 asio::awaitable<void> plc_program::ask(plc::adprw_question question)
 {
-    modbus::rtu_timing timing = timing_;
+    modbus::serial_options timing = timing_;
     timing.response_timeout = question.timing.response_timeout;
     timing.turnaround = question.timing.turnaround;
     timing.gap = question.timing.message_delay;

@@ -13,8 +13,8 @@ namespace plcgw {
 class plc_program {
 public:
     // timing: of the line; what the PLC's D8409-D8412 say goes before it. settle: called when devices changed.
-    plc_program(asio::io_context& loop, plc::adprw_runner runner, forward_gate& line, const modbus::rtu_timing& timing,
-                std::function<void()> settle);
+    plc_program(asio::io_context& loop, plc::adprw_runner runner, forward_gate& line,
+                const modbus::serial_options& timing, std::function<void()> settle);
 
     asio::awaitable<void> run();  // until the io_context ends
     void look();                  // devices changed: a contact may have closed
@@ -24,7 +24,7 @@ private:
 
     plc::adprw_runner runner_;
     forward_gate& line_;
-    modbus::rtu_timing timing_;
+    modbus::serial_options timing_;
     std::function<void()> settle_;
     asio::steady_timer pause_;
 };

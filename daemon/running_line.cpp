@@ -41,7 +41,7 @@ route make_route(const route_config& from, const find_plc& plc)
 
 }  // namespace
 
-modbus::rtu_timing timing_of(const line_config& line)
+modbus::serial_options timing_of(const line_config& line)
 {
     return {.format = {line.baud_rate, line.data_bits, line.check, line.stop_bits},
             .response_timeout = line.response_timeout,
@@ -52,9 +52,9 @@ modbus::rtu_timing timing_of(const line_config& line)
             .echo = line.rs485.enabled && line.rs485.rx_during_tx ? local_echo::on : line.echo};
 }
 
-modbus::rtu_timing timing_of(const line_config& line, const station_config& station)
+modbus::serial_options timing_of(const line_config& line, const station_config& station)
 {
-    modbus::rtu_timing timing = timing_of(line);
+    modbus::serial_options timing = timing_of(line);
     timing.response_timeout = station.response_timeout.value_or(line.response_timeout);
     timing.retries = station.retries.value_or(line.retries);
     return timing;

@@ -28,7 +28,7 @@ public:
 };
 
 // How a line is spoken to: of a station, or of any unit that is none.
-modbus::rtu_timing timing_of(const line_config& line);
-modbus::rtu_timing timing_of(const line_config& line, const station_config& station);
+modbus::serial_options timing_of(const line_config& line);
+modbus::serial_options timing_of(const line_config& line, const station_config& station);
 
 }  // namespace plcgw

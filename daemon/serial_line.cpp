@@ -71,19 +71,19 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
 {
     if (echoes_ && question.timing.echo == local_echo::automatic)
         question.timing.echo = local_echo::on;
-    modbus::rtu_transaction transaction(question.unit, question.request, question.timing, line_free_from_, now());
+    modbus::serial_transaction transaction(question.unit, question.request, question.timing, line_free_from_, now());
     for (;;) {
         const auto action = transaction.next(now());
-        if (std::holds_alternative<modbus::rtu_transaction::done>(action))
+        if (std::holds_alternative<modbus::serial_transaction::done>(action))
             break;
         error_code ec;
-        if (const auto* to_send = std::get_if<modbus::rtu_transaction::send>(&action)) {
+        if (const auto* to_send = std::get_if<modbus::serial_transaction::send>(&action)) {
             const time_point started = now();
             ec = co_await connection_.write(to_send->adu);
             transaction.sent(started);
         }
         else {
-            const time_point until = std::get<modbus::rtu_transaction::wait>(action).until;
+            const time_point until = std::get<modbus::serial_transaction::wait>(action).until;
             const auto size = co_await read_before(until, connection_.port, connection_.guard, asio::buffer(received_));
             if (size)
                 transaction.feed(now(), bytes(received_).first(*size));

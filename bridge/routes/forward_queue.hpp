@@ -3,7 +3,7 @@
 #pragma once
 
 #include "protocols/modbus/response.hpp"
-#include "protocols/modbus/rtu_transaction.hpp"
+#include "protocols/modbus/serial_transaction.hpp"
 
 #include <deque>
 #include <optional>
@@ -18,7 +18,7 @@ struct forward_request {
     forward_ticket ticket{};
     modbus::unit_id unit{};
     modbus::request request;
-    std::optional<modbus::rtu_timing> timing;  // of the station or the line, if absent
+    std::optional<modbus::serial_options> timing;  // of the station or the line, if absent
 };
 
 struct forward_answer {
@@ -30,7 +30,7 @@ class forward_queue {
 public:
     // Nothing when as many wait already: exception 06, server device busy.
     std::optional<forward_ticket> add(modbus::unit_id unit, modbus::request request,
-                                      std::optional<modbus::rtu_timing> timing)
+                                      std::optional<modbus::serial_options> timing)
     {
         constexpr std::size_t longest = 64;
         if (waiting_.size() >= longest)

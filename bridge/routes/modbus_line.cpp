@@ -26,12 +26,12 @@ std::string exception_text(modbus::exception_code code)
 }  // namespace
 
 modbus_line::modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
-                         const modbus::rtu_timing& timing)
+                         const modbus::serial_options& timing)
     : name_(std::move(name)), stations_(std::move(stations)), schedule_(stations_.size()), timing_(timing),
       longest_silence_(longest_silence)
 {
     for (std::size_t i = 0; i < stations_.size(); ++i) {
-        const modbus::rtu_timing& each = stations_[i].timing;
+        const modbus::serial_options& each = stations_[i].timing;
         schedule_.set_longest_delay(i, std::max(least_longest_delay, (each.retries + 2) * each.response_timeout));
     }
 }
@@ -50,7 +50,7 @@ void modbus_line::add_route(route r, std::size_t station, duration period)
 }
 
 std::optional<forward_ticket> modbus_line::forward(modbus::unit_id unit, modbus::request request,
-                                                   std::optional<modbus::rtu_timing> timing)
+                                                   std::optional<modbus::serial_options> timing)
 {
     const auto ticket = forwards_.add(unit, std::move(request), std::move(timing));
     if (!port_open_)
@@ -81,7 +81,7 @@ std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
             forwards_.answer(first.ticket, make_error_code(errc::timed_out));  // at once: the line is for the living
             continue;
         }
-        const modbus::rtu_timing& timing = first.timing ? *first.timing : of != nullptr ? of->timing : timing_;
+        const modbus::serial_options& timing = first.timing ? *first.timing : of != nullptr ? of->timing : timing_;
         return question{first.ticket, first.unit, std::move(first.request), timing, now};
     }
     return std::nullopt;

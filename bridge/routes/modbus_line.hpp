@@ -4,14 +4,14 @@
 #include "bridge/routes/forward_queue.hpp"
 #include "bridge/routes/route.hpp"
 #include "bridge/routes/schedule.hpp"
-#include "protocols/modbus/rtu_transaction.hpp"
+#include "protocols/modbus/serial_transaction.hpp"
 
 namespace plcgw {
 
 struct station {
     std::string name;
     modbus::unit_id unit{};
-    modbus::rtu_timing timing;
+    modbus::serial_options timing;
 };
 
 // For the log: a station or a route that changed its state.
@@ -24,7 +24,7 @@ class modbus_line {
 public:
     // timing: of requests to units that are no station of this line.
     modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
-                const modbus::rtu_timing& timing = {});
+                const modbus::serial_options& timing = {});
 
     void add_route(route r, std::size_t station, duration period);
     void start(time_point now) { schedule_.start(now); }
@@ -32,14 +32,14 @@ public:
     // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent or the station
     // is known to be down. Nothing when too many wait.
     std::optional<forward_ticket> forward(modbus::unit_id unit, modbus::request request,
-                                          std::optional<modbus::rtu_timing> timing = {});
+                                          std::optional<modbus::serial_options> timing = {});
     std::vector<forward_answer> take_forwarded() { return forwards_.take_answers(); }
 
     struct question {
         std::variant<schedule::turn, forward_ticket> origin;
         modbus::unit_id unit{};
         modbus::request request;
-        modbus::rtu_timing timing;
+        modbus::serial_options timing;
         time_point asked_at{};
     };
 
@@ -98,7 +98,7 @@ private:
     forward_queue forwards_;
     bool forwarded_last_ = false;
     bool port_open_ = false;
-    modbus::rtu_timing timing_;
+    modbus::serial_options timing_;
     duration longest_silence_;
     std::vector<line_event> events_;
 };

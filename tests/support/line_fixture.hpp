@@ -12,8 +12,8 @@ namespace plcgw::test {
 
 inline constexpr wall_time noon{1'700'000'000'000'000'000};
 
-inline constexpr modbus::rtu_timing patient{.format = {}, .retries = 2};
-inline constexpr modbus::rtu_timing hasty{.format = {}, .response_timeout = 200ms};
+inline constexpr modbus::serial_options patient{.format = {}, .retries = 2};
+inline constexpr modbus::serial_options hasty{.format = {}, .response_timeout = 200ms};
 
 struct line_fixture : fx3u_fixture {
     modbus_line line{"bus 1", {{"pump", modbus::unit_id{5}, patient}, {"valve", modbus::unit_id{6}, hasty}}, 10s};

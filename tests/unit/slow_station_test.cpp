@@ -54,17 +54,17 @@ public:
 private:
     void exchange(const modbus_line::question& q)
     {
-        rtu_transaction t(q.unit, q.request, q.timing, free_from_, now_);
+        serial_transaction t(q.unit, q.request, q.timing, free_from_, now_);
         for (;;) {
             const auto action = t.next(now_);
-            if (std::holds_alternative<rtu_transaction::done>(action))
+            if (std::holds_alternative<serial_transaction::done>(action))
                 break;
-            if (std::holds_alternative<rtu_transaction::send>(action)) {
+            if (std::holds_alternative<serial_transaction::send>(action)) {
                 t.sent(now_);
                 free_ = (one_by_one_ ? std::max(now_, free_) : now_) + delay_;
                 on_their_way_.push_back({free_, answer_to(std::get<read_table>(q.request))});
             }
-            else if (const auto late = next_answer(std::get<rtu_transaction::wait>(action).until)) {
+            else if (const auto late = next_answer(std::get<serial_transaction::wait>(action).until)) {
                 t.feed(now_, *late);
             }
         }
@@ -105,7 +105,7 @@ private:
     duration delay_;
     bool one_by_one_;  // reads its next request when it has answered the one before
     time_point free_ = t0;
-    rtu_timing timing_;
+    serial_options timing_;
     modbus_line routes_;
     time_point now_ = t0;
     time_point free_from_ = t0;

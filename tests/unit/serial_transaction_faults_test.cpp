@@ -21,7 +21,7 @@ constexpr duration on_wire = 4'584us;
 constexpr duration gap = 2'006us;
 constexpr duration silence = 20ms;
 
-constexpr rtu_timing timing{.format = {}, .response_timeout = 500ms, .retries = 1, .silence = silence};
+constexpr serial_options timing{.format = {}, .response_timeout = 500ms, .retries = 1, .silence = silence};
 
 buffer damaged(buffer adu)
 {
@@ -31,9 +31,9 @@ buffer damaged(buffer adu)
 
 }  // namespace
 
-TEST_CASE("rtu transaction: stray bytes before the request postpone it by a gap each")
+TEST_CASE("serial transaction: stray bytes before the request postpone it by a gap each")
 {
-    rtu_transaction t(unit, question, timing, t0 + gap, t0);
+    serial_transaction t(unit, question, timing, t0 + gap, t0);
     t.feed(t0 + 1ms, noise);
     CHECK(waits(t, t0 + 1ms) == t0 + 1ms + gap);
     t.feed(t0 + 2ms, buffer{0x00, 0x00});
@@ -42,9 +42,9 @@ TEST_CASE("rtu transaction: stray bytes before the request postpone it by a gap 
     CHECK(t.stray_bytes() == 3);
 }
 
-TEST_CASE("rtu transaction: a line that never falls silent is reported and not talked over")
+TEST_CASE("serial transaction: a line that never falls silent is reported and not talked over")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     time_point now = t0;
     for (; now < t0 + 500ms; now += 1ms) {
         t.feed(now, noise);
@@ -60,9 +60,9 @@ TEST_CASE("rtu transaction: a line that never falls silent is reported and not t
     CHECK(t.line_free_from() == now + gap);
 }
 
-TEST_CASE("rtu transaction: a damaged answer fails after the silence, not after the response timeout, and is retried")
+TEST_CASE("serial transaction: a damaged answer fails after the silence, not after the response timeout, and is retried")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     t.feed(t0 + 30ms, damaged(answer));
     CHECK(waits(t, t0 + 30ms) == t0 + 30ms + silence);
@@ -74,18 +74,18 @@ TEST_CASE("rtu transaction: a damaged answer fails after the silence, not after 
     CHECK(t.line_free_from() == t0 + 80ms + gap);  // nobody owes us a second answer
 }
 
-TEST_CASE("rtu transaction: a retry keeps the gap as well, where that is longer than the silence")
+TEST_CASE("serial transaction: a retry keeps the gap as well, where that is longer than the silence")
 {
-    rtu_timing careful = timing;
+    serial_options careful = timing;
     careful.gap = 50ms;
-    rtu_transaction t(unit, question, careful, t0, t0);
+    serial_transaction t(unit, question, careful, t0, t0);
     REQUIRE(sends(t, t0, asked));
     t.feed(t0 + 30ms, damaged(answer));
     CHECK(waits(t, t0 + 30ms + silence) == t0 + 80ms);
     CHECK(sends(t, t0 + 80ms, asked));
 }
 
-TEST_CASE("rtu transaction: the last attempt says what was wrong")
+TEST_CASE("serial transaction: the last attempt says what was wrong")
 {
     struct {
         const char* name;
@@ -96,11 +96,11 @@ TEST_CASE("rtu transaction: the last attempt says what was wrong")
         {"cut short", buffer(answer.begin(), answer.begin() + 7), errc::incomplete},
         {"two registers instead of three", encode_rtu({unit, {0x03, 0x04, 1, 2, 3, 4}}), errc::unexpected_answer},
     };
-    rtu_timing once = timing;
+    serial_options once = timing;
     once.retries = 0;
     for (const auto& row : answers) {
         CAPTURE(row.name);
-        rtu_transaction t(unit, question, once, t0, t0);
+        serial_transaction t(unit, question, once, t0, t0);
         REQUIRE(sends(t, t0, asked));
         t.feed(t0 + 30ms, row.received);
         REQUIRE(is_done(t, t0 + 30ms + silence));
@@ -110,7 +110,7 @@ TEST_CASE("rtu transaction: the last attempt says what was wrong")
 }
 
 // V1.02 section 2.4.1: "In case of a reply received from an unexpected slave, the Response time-out is kept running."
-TEST_CASE("rtu transaction: what cannot be our station's answer leaves the response timeout running")
+TEST_CASE("serial transaction: what cannot be our station's answer leaves the response timeout running")
 {
     struct {
         const char* name;
@@ -122,7 +122,7 @@ TEST_CASE("rtu transaction: what cannot be our station's answer leaves the respo
     };
     for (const auto& row : rows) {
         CAPTURE(row.name);
-        rtu_transaction t(unit, question, timing, t0, t0);
+        serial_transaction t(unit, question, timing, t0, t0);
         REQUIRE(sends(t, t0, asked));
         t.feed(t0 + 5ms, row.heard);
         CHECK(
@@ -134,20 +134,20 @@ TEST_CASE("rtu transaction: what cannot be our station's answer leaves the respo
     }
 }
 
-TEST_CASE("rtu transaction: a stranger's frame instead of an answer does not make the timeout longer")
+TEST_CASE("serial transaction: a stranger's frame instead of an answer does not make the timeout longer")
 {
-    rtu_timing once = timing;
+    serial_options once = timing;
     once.retries = 0;
-    rtu_transaction t(unit, question, once, t0, t0);
+    serial_transaction t(unit, question, once, t0, t0);
     REQUIRE(sends(t, t0, asked));
     t.feed(t0 + 5ms, encode_rtu({unit_id{0x12}, {0x83, 0x02}}));
     REQUIRE(is_done(t, t0 + on_wire + 500ms));
     CHECK(t.outcome().has_error());
 }
 
-TEST_CASE("rtu transaction: a late answer to the first attempt is taken, and the second is still owed")
+TEST_CASE("serial transaction: a late answer to the first attempt is taken, and the second is still owed")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     const time_point first_end = t0 + on_wire;
     REQUIRE(sends(t, first_end + 500ms, asked));
@@ -161,9 +161,9 @@ TEST_CASE("rtu transaction: a late answer to the first attempt is taken, and the
     CHECK(t.line_free_from() == first_end + 600ms + gap);  // for other stations: the schedule holds this one back
 }
 
-TEST_CASE("rtu transaction: the echo of a read is left out, and does not end the wait for the answer")
+TEST_CASE("serial transaction: the echo of a read is left out, and does not end the wait for the answer")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     t.feed(t0 + 5ms, asked);
     CHECK(waits(t, t0 + 300ms) == t0 + on_wire + 500ms);
@@ -174,21 +174,21 @@ TEST_CASE("rtu transaction: the echo of a read is left out, and does not end the
     CHECK(t.unanswered() == 0);
 }
 
-TEST_CASE("rtu transaction: on a line with echo, the echo of a write is no answer")
+TEST_CASE("serial transaction: on a line with echo, the echo of a write is no answer")
 {
     const request write = write_single_register{address{7}, 1234};
     const buffer adu = encode_rtu({unit, encode_request(write)});
-    rtu_timing echoing = timing;
+    serial_options echoing = timing;
     echoing.echo = local_echo::on;
     echoing.retries = 0;
 
-    rtu_transaction dead(unit, write, echoing, t0, t0);
+    serial_transaction dead(unit, write, echoing, t0, t0);
     REQUIRE(sends(dead, t0, adu));
     dead.feed(t0 + 5ms, adu);
     REQUIRE(is_done(dead, t0 + 1s));
     CHECK(dead.outcome().error() == errc::timed_out);
 
-    rtu_transaction alive(unit, write, echoing, t0, t0);
+    serial_transaction alive(unit, write, echoing, t0, t0);
     REQUIRE(sends(alive, t0, adu));
     alive.feed(t0 + 5ms, adu);
     alive.feed(t0 + 20ms, adu);
@@ -196,11 +196,11 @@ TEST_CASE("rtu transaction: on a line with echo, the echo of a write is no answe
     CHECK(alive.outcome().value() == response{written{}});
 }
 
-TEST_CASE("rtu transaction: babble after the request ends every attempt, and then the transaction")
+TEST_CASE("serial transaction: babble after the request ends every attempt, and then the transaction")
 {
     for (const duration pause : {1ms, 10ms, 19ms}) {
         CAPTURE(pause);
-        rtu_transaction t(unit, question, timing, t0, t0);
+        serial_transaction t(unit, question, timing, t0, t0);
         REQUIRE(sends(t, t0, asked));
         time_point now = t0;
         while (!is_done(t, now) && now < t0 + 10s) {

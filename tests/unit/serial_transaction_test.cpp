@@ -19,13 +19,13 @@ const response values = registers_read{{0xAE41, 0x5652, 0x4340}};
 constexpr duration on_wire = 4'584us;  // 8 characters of 11 bits at 19200 bit/s
 constexpr duration gap = 2'006us;      // 3.5 characters
 
-constexpr rtu_timing timing{.format = {}, .response_timeout = 500ms, .retries = 1};
+constexpr serial_options timing{.format = {}, .response_timeout = 500ms, .retries = 1};
 
 }  // namespace
 
-TEST_CASE("rtu transaction: an answer ends it at once")
+TEST_CASE("serial transaction: an answer ends it at once")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     CHECK(waits(t, t0) == t0 + on_wire + 500ms);
 
@@ -38,9 +38,9 @@ TEST_CASE("rtu transaction: an answer ends it at once")
     CHECK(t.stray_bytes() == 0);
 }
 
-TEST_CASE("rtu transaction: an answer in pieces ends it with the last piece, each piece extends the wait")
+TEST_CASE("serial transaction: an answer in pieces ends it with the last piece, each piece extends the wait")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     for (std::size_t i = 0; i < answer.size(); ++i) {
         const time_point now = t0 + 20ms + i * 15ms;
@@ -55,9 +55,9 @@ TEST_CASE("rtu transaction: an answer in pieces ends it with the last piece, eac
     CHECK(t.outcome().value() == values);
 }
 
-TEST_CASE("rtu transaction: an exception is an answer and is not asked again")
+TEST_CASE("serial transaction: an exception is an answer and is not asked again")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     t.feed(t0 + 20ms, encode_rtu({unit, {0x83, 0x02}}));
     REQUIRE(is_done(t, t0 + 20ms));
@@ -65,24 +65,24 @@ TEST_CASE("rtu transaction: an exception is an answer and is not asked again")
     CHECK(t.attempts() == 1);
 }
 
-TEST_CASE("rtu transaction: the deadline counts from the end of the request on the wire")
+TEST_CASE("serial transaction: the deadline counts from the end of the request on the wire")
 {
-    rtu_timing slow = timing;
+    serial_options slow = timing;
     slow.format = {.baud_rate = 1200};
-    rtu_transaction t(unit, question, slow, t0, t0);
+    serial_transaction t(unit, question, slow, t0, t0);
     REQUIRE(sends(t, t0, asked));
     CHECK(waits(t, t0) == t0 + 73'334us + 500ms);
     CHECK(waits(t, t0 + 573'333us) == t0 + 573'334us);
     CHECK(sends(t, t0 + 573'334us, asked));
 }
 
-TEST_CASE("rtu transaction: silence is answered by as many retries as are allowed, then by a failure")
+TEST_CASE("serial transaction: silence is answered by as many retries as are allowed, then by a failure")
 {
     for (unsigned retries = 0; retries <= 3; ++retries) {
         CAPTURE(retries);
-        rtu_timing allowed = timing;
+        serial_options allowed = timing;
         allowed.retries = retries;
-        rtu_transaction t(unit, question, allowed, t0, t0);
+        serial_transaction t(unit, question, allowed, t0, t0);
 
         time_point now = t0;
         for (unsigned attempt = 0; attempt <= retries; ++attempt) {
@@ -97,9 +97,9 @@ TEST_CASE("rtu transaction: silence is answered by as many retries as are allowe
     }
 }
 
-TEST_CASE("rtu transaction: an answer to a retry")
+TEST_CASE("serial transaction: an answer to a retry")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     const time_point second = t0 + on_wire + 500ms;
     REQUIRE(sends(t, second, asked));
@@ -110,15 +110,15 @@ TEST_CASE("rtu transaction: an answer to a retry")
     CHECK(t.response_time() == 30ms - on_wire);
 }
 
-TEST_CASE("rtu transaction: it waits until the line is free")
+TEST_CASE("serial transaction: it waits until the line is free")
 {
-    rtu_transaction t(unit, question, timing, t0 + gap, t0);
+    serial_transaction t(unit, question, timing, t0 + gap, t0);
     CHECK(waits(t, t0) == t0 + gap);
     CHECK(waits(t, t0 + gap - 1us) == t0 + gap);
     CHECK(sends(t, t0 + gap, asked));
 }
 
-TEST_CASE("rtu transaction: the gap is 3.5 characters, 1750 us above 19200 bit/s, or longer where configured")
+TEST_CASE("serial transaction: the gap is 3.5 characters, 1750 us above 19200 bit/s, or longer where configured")
 {
     struct {
         const char* name;
@@ -135,10 +135,10 @@ TEST_CASE("rtu transaction: the gap is 3.5 characters, 1750 us above 19200 bit/s
     };
     for (const auto& row : gaps) {
         CAPTURE(row.name);
-        rtu_timing with_gap = timing;
+        serial_options with_gap = timing;
         with_gap.format.baud_rate = row.baud_rate;
         with_gap.gap = row.configured;
-        rtu_transaction t(unit, question, with_gap, t0, t0);
+        serial_transaction t(unit, question, with_gap, t0, t0);
         REQUIRE(sends(t, t0, asked));
         t.feed(t0 + 30ms, bytes(answer).first(5));
         t.feed(t0 + 40ms, bytes(answer).subspan(5));
@@ -147,29 +147,29 @@ TEST_CASE("rtu transaction: the gap is 3.5 characters, 1750 us above 19200 bit/s
     }
 }
 
-TEST_CASE("rtu transaction: a broadcast is not answered, the stations get their turnaround delay")
+TEST_CASE("serial transaction: a broadcast is not answered, the stations get their turnaround delay")
 {
     const request all_off = write_multiple_coils{address{0}, std::vector<bool>(8)};
     const buffer adu{0x00, 0x0F, 0x00, 0x00, 0x00, 0x08, 0x01, 0x00, 0x3F, 0x59};
     const duration broadcast_on_wire = 5'730us;
 
-    rtu_transaction t(unit_id::broadcast, all_off, timing, t0, t0);
+    serial_transaction t(unit_id::broadcast, all_off, timing, t0, t0);
     REQUIRE(encode_rtu({unit_id::broadcast, encode_request(all_off)}) == adu);
     REQUIRE(sends(t, t0, adu));
     REQUIRE(is_done(t, t0));
     CHECK(t.outcome().value() == response{no_response{}});
     CHECK(t.line_free_from() == t0 + broadcast_on_wire + 100ms);
 
-    rtu_timing hasty = timing;
+    serial_options hasty = timing;
     hasty.turnaround = 1ms;  // FX3 manual 6.1, D8410 note 2: 3.5 characters at least
-    rtu_transaction short_delay(unit_id::broadcast, all_off, hasty, t0, t0);
+    serial_transaction short_delay(unit_id::broadcast, all_off, hasty, t0, t0);
     REQUIRE(sends(short_delay, t0, adu));
     CHECK(short_delay.line_free_from() == t0 + broadcast_on_wire + gap);
 }
 
-TEST_CASE("rtu transaction: an answer that was read late, but before anybody asked, still counts")
+TEST_CASE("serial transaction: an answer that was read late, but before anybody asked, still counts")
 {
-    rtu_transaction t(unit, question, timing, t0, t0);
+    serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));
     t.feed(t0 + 700ms, answer);
     REQUIRE(is_done(t, t0 + 700ms));

@@ -9,7 +9,7 @@
 
 namespace plcgw::modbus {
 
-struct rtu_timing {
+struct serial_options {
     character_format format;
     duration response_timeout{500'000};  // from the last byte of the request to the first of the answer
     unsigned retries = 1;                // after the first attempt
@@ -19,7 +19,7 @@ struct rtu_timing {
     local_echo echo = local_echo::automatic;
 };
 
-class rtu_transaction {
+class serial_transaction {
 public:
     struct send {
         bytes adu;  // valid until the next call of next()
@@ -31,10 +31,10 @@ public:
     using action = std::variant<send, wait, done>;
 
     // line_free_from: when the line will have been silent for long enough, as the transaction before said.
-    rtu_transaction(unit_id unit, request question, const rtu_timing& timing, time_point line_free_from,
-                    time_point now);
-    rtu_transaction(const rtu_transaction&) = delete;  // the answer points to the question
-    rtu_transaction& operator=(const rtu_transaction&) = delete;
+    serial_transaction(unit_id unit, request question, const serial_options& timing, time_point line_free_from,
+                       time_point now);
+    serial_transaction(const serial_transaction&) = delete;  // the answer points to the question
+    serial_transaction& operator=(const serial_transaction&) = delete;
 
     action next(time_point now);
     void sent(time_point now);  // what next() said to send was handed to the driver
@@ -63,7 +63,7 @@ private:
 
     unit_id unit_;
     request question_;
-    rtu_timing timing_;
+    serial_options timing_;
     buffer adu_;
     std::optional<rtu_answer> answer_;
     state state_ = state::wait_for_line;

@@ -1,21 +1,21 @@
-#include "protocols/modbus/rtu_transaction.hpp"
+#include "protocols/modbus/serial_transaction.hpp"
 
 #include <algorithm>
 
 namespace plcgw::modbus {
 
-rtu_transaction::rtu_transaction(unit_id unit, request question, const rtu_timing& timing, time_point line_free_from,
-                                 time_point now)
+serial_transaction::serial_transaction(unit_id unit, request question, const serial_options& timing,
+                                       time_point line_free_from, time_point now)
     : unit_(unit), question_(std::move(question)), timing_(timing), adu_(encode_rtu({unit, encode_request(question_)})),
       line_free_from_(line_free_from), give_up_(std::max(now, line_free_from) + timing.response_timeout)
 {
 }
 
-duration rtu_transaction::gap() const { return std::max(timing_.gap, frame_gap(timing_.format)); }
+duration serial_transaction::gap() const { return std::max(timing_.gap, frame_gap(timing_.format)); }
 
 // The end of a damaged answer. A line that babbles for ever does not hold us for longer than an answer can last. Noise
 // and the answer of an unexpected station leave the response timeout running (V1.02 section 2.4.1).
-time_point rtu_transaction::silence_ends() const
+time_point serial_transaction::silence_ends() const
 {
     const time_point timeout = sent_until_ + timing_.response_timeout;
     const time_point longest = timeout + character_time(timing_.format, max_rtu_size);
@@ -23,7 +23,7 @@ time_point rtu_transaction::silence_ends() const
     return answer_->begun() ? silent : std::max(silent, timeout);
 }
 
-rtu_transaction::action rtu_transaction::next(time_point now)
+serial_transaction::action serial_transaction::next(time_point now)
 {
     switch (state_) {
     case state::wait_for_line:
@@ -55,7 +55,7 @@ rtu_transaction::action rtu_transaction::next(time_point now)
     return done{};
 }
 
-void rtu_transaction::sent(time_point now)
+void serial_transaction::sent(time_point now)
 {
     ++attempts_;
     sent_until_ = now + character_time(timing_.format, adu_.size());
@@ -71,7 +71,7 @@ void rtu_transaction::sent(time_point now)
     state_ = state::wait_for_answer;
 }
 
-void rtu_transaction::feed(time_point now, bytes received)
+void serial_transaction::feed(time_point now, bytes received)
 {
     if (received.empty())
         return;
@@ -91,7 +91,7 @@ void rtu_transaction::feed(time_point now, bytes received)
 }
 
 // What remains of the bytes after a request when its echo is taken away. Empty while they may still become the echo.
-bytes rtu_transaction::without_echo(bytes received)
+bytes serial_transaction::without_echo(bytes received)
 {
     if (!awaits_echo_)
         return received;
@@ -105,14 +105,14 @@ bytes rtu_transaction::without_echo(bytes received)
     return same ? bytes(echo_).subspan(adu_.size()) : bytes(echo_);
 }
 
-void rtu_transaction::answered(time_point now, response answer)
+void serial_transaction::answered(time_point now, response answer)
 {
     response_time_ = std::max(duration{}, now - sent_until_);
     line_free_from_ = now + gap();
     finish(std::move(answer));
 }
 
-void rtu_transaction::fail_attempt(time_point now, errc reason)
+void serial_transaction::fail_attempt(time_point now, errc reason)
 {
     if (!answer_->whole() && unanswered_++ == 0)
         unanswered_since_ = sent_until_;
@@ -125,7 +125,7 @@ void rtu_transaction::fail_attempt(time_point now, errc reason)
     state_ = state::wait_for_line;
 }
 
-void rtu_transaction::finish(result<response> outcome)
+void serial_transaction::finish(result<response> outcome)
 {
     outcome_ = std::move(outcome);
     state_ = state::finished;
