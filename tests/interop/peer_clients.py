@@ -71,8 +71,7 @@ class Pymodbus(Client):
         return [answer.event_count, answer.message_count, *answer.events]
 
     def server_id(self):
-        answer = self.execute(ReportSlaveIdRequest())
-        return [*answer.identifier, 0xFF if answer.status else 0x00]
+        return list(self.execute(ReportSlaveIdRequest()).identifier)  # it counts the run indicator as part of it
 
     def identification(self):
         answer = self.execute(ReadDeviceInformationRequest(read_code=1, object_id=0))

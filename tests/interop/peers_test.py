@@ -13,7 +13,7 @@ from support import main
 class Pymodbus(PeerTest):
     peer = "pymodbus"
     answers = {"mask": None, "read_write": [MASKED, 5, 6], "exception_status": [0], "diagnostics": [0xA55A],
-               "event_counter": [True, 0], "event_log": [0, 0], "server_id": [*b"Debian-pymodbus-3.0", 0xFF, 0xFF],
+               "event_counter": [True, 0], "event_log": [0, 0], "server_id": [*b"Debian-pymodbus-3.0", 0xFF],
                "identification": ["Debian", "pymodbus", "3.0"]}
 
     def version(self):
