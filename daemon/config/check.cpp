@@ -188,20 +188,33 @@ private:
 
     void check_line(std::size_t i, const line_config& l)
     {
-        const bool serial = l.protocol == line_protocol::modbus_rtu;
-        if (is_sound(item("lines", i)) && (serial ? l.device : l.host).empty())
-            complain(item("lines", i), serial ? "lacks \"device\": the path of a serial port"
-                                              : "lacks \"host\": the address of a MODBUS TCP server");
+        const bool serial = l.protocol != line_protocol::modbus_tcp;
+        if (is_sound(item("lines", i)))
+            check_way(i, l, serial);
         if (l.role == line_role::server)
             check_server_line(i, l, serial);
         else if (!l.units.empty() && is_sound(item("lines", i)))
             complain(item("lines", i, "units"), "stands at a client line: its stations are listed under \"stations\"");
-        if (l.data_bits != 8)
+        if (l.data_bits != 8 && l.protocol == line_protocol::modbus_rtu)
             complain(item("lines", i, "data_bits"), "is 7, but MODBUS RTU needs 8 data bits");
         for (std::size_t other = 0; other < i; ++other)
             if (!l.device.empty() && port_of(c_.lines[other]) == port_of(l))
                 complain(item("lines", i, "device"),
                          "is already the device of line \"" + c_.lines[other].name + "\": a port belongs to one line");
+    }
+
+    // A line goes over a serial port or to a host.
+    void check_way(std::size_t i, const line_config& l, bool serial)
+    {
+        if (!serial && l.host.empty())
+            complain(item("lines", i), "lacks \"host\": the address of a MODBUS TCP server");
+        else if (!serial && !l.device.empty())
+            complain(item("lines", i, "device"), "stands at a MODBUS TCP line, which has no serial port");
+        else if (l.device.empty() && l.host.empty())
+            complain(item("lines", i),
+                     "lacks \"device\": the path of a serial port, or \"host\": a device server's address");
+        else if (!l.device.empty() && !l.host.empty())
+            complain(item("lines", i, "host"), "stands beside \"device\": a line has one of them");
     }
 
     void check_server_line(std::size_t i, const line_config& l, bool serial)

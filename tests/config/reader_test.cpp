@@ -169,7 +169,7 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
 {
     const change_row rows[] = {
         {R"({ "name": "spare" })", "{}", "11 /plcs/1 has no \"name\": Name of the simulated PLC"},
-        {R"("device": "/dev/ttyUSB1")", R"("retries": 1)", "21 /lines/1 lacks \"device\": the path of a serial port"},
+        {R"("device": "/dev/ttyUSB1")", R"("retries": 1)", "21 /lines/1 lacks \"device\": the path of a serial port, or \"host\": a device server's address"},
         {R"({ "unit": 2, "plc": "spare" })", R"({ "plc": "spare" })",
          "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id"},
         {R"({ "plc": "main", "device": "M0" })", "{}",
