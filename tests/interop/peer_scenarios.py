@@ -17,7 +17,8 @@ M8061 = 0x1E00 + 61  # bit 1 of the exception status
 BITS = [1, 0, 1, 1, 0, 0, 0, 0, 1, 1]
 WORDS = [0x1234, 0, 0xFFFF]
 NOWHERE = 0xFFFF     # an address that neither the gateway nor a peer has
-SERIAL = {"parity": "none"}  # a pty has none
+# pymodbus's server takes no 7E1 on a pty, which keeps 8N whatever is asked for: the peers use 8N1 for ASCII as well.
+SERIAL = {"rtu": {"parity": "none"}, "ascii": {"data_bits": 7, "parity": "even"}}
 
 READ_ROUTES = [route("peer.holding", "holding", 10, "D100", 3, period_ms=50),
                route("peer.input", "input", 20, "D110", 3, period_ms=50),
@@ -64,7 +65,8 @@ class PeerTest(InteropTest):
         exceptions = ", ".join(f"{code:02X} for {' '.join(sorted(self.refusals[code]))}"
                                for code in sorted(self.refusals))
         row = (f"{self.peer} {self.version()}", role, FRAMINGS[framing], functions, exceptions, self.ctest_name())
-        self.assertIn(row, rows(), "a row that docs/peers.md does not have")
+        self.assertIn(row, [each for each in rows() if each[0].split()[0] == self.peer and each[1:3] == row[1:3]],
+                      "a row that docs/peers.md does not have")
 
     def ctest_name(self):
         return f"interop.peers_{self.peer.replace('-', '_')}"
@@ -80,7 +82,7 @@ class PeerTest(InteropTest):
         """The peer's client and the gateway's server; `make` opens the client."""
         line = {"name": "bus", "device": str(self.folder / "line"), "role": "server",
                 "protocol": "modbus-ascii" if framing == "ascii" else "modbus-rtu",
-                "units": [{"unit": unit, "plc": "main", "channel": 1}], **SERIAL}
+                "units": [{"unit": unit, "plc": "main", "channel": 1}], **SERIAL.get(framing, {})}
         configuration = self.configuration(lines=[] if "tcp" in framing else [line])
         where = self.folder / "line.1"
         if "tcp" in framing:
@@ -175,7 +177,7 @@ class PeerTest(InteropTest):
             where = line["port"]
         else:
             self.start_bus(2)
-            line.update(device=str(self.folder / "line"), **SERIAL)
+            line.update(device=str(self.folder / "line"), **SERIAL[framing])
             where = self.folder / "line.1"
         peer = start(self, framing, where)
         broadcasts = "broadcast_register" in (answers or {})

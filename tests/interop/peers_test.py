@@ -25,16 +25,28 @@ class Pymodbus(PeerTest):
     def test_client_rtu(self):
         self.client_row("rtu", peer_clients.Pymodbus)
 
+    def test_client_ascii(self):
+        self.client_row("ascii", peer_clients.Pymodbus)
+
     def test_server_tcp(self):
         self.server_row("tcp", peer_servers.pymodbus, self.answers)
 
     def test_server_rtu(self):
         self.server_row("rtu", peer_servers.pymodbus, {**self.answers, "broadcast_register": None})
 
+    def test_server_ascii(self):
+        self.server_row("ascii", peer_servers.pymodbus, {**self.answers, "broadcast_register": None})
+
+    def test_server_rtu_over_tcp(self):
+        self.server_row("rtu-over-tcp", peer_servers.pymodbus, {**self.answers, "broadcast_register": None})
+
+    def test_server_ascii_over_tcp(self):
+        self.server_row("ascii-over-tcp", peer_servers.pymodbus, {**self.answers, "broadcast_register": None})
+
 
 class Libmodbus(PeerTest):
     peer = "libmodbus"
-    answers = {"mask": None, "read_write": [MASKED, 5, 6], "server_id": [180, 0xFF, *b"LMB3.1.6", 0]}
+    answers = {"mask": None, "read_write": [MASKED, 5, 6], "server_id": [180, 0xFF, *b"LMB3.1.6"]}
     refuses = {"event_counter": 1, "event_log": 1}
 
     def version(self):
@@ -92,6 +104,13 @@ class Jsmodbus(PeerTest):
     def test_server_rtu(self):
         self.server("rtu")
 
+    def test_server_rtu_over_tcp(self):
+        self.server("rtu-over-tcp")
+
+
+# What modbus-serial has, but not on all of its ports.
+BESIDES_THE_EIGHT = ("mask", "read_write", "server_id", "identification")
+
 
 class ModbusSerial(PeerTest):
     peer = "modbus-serial"
@@ -111,6 +130,9 @@ class ModbusSerial(PeerTest):
 
     def test_client_rtu(self):
         self.client("rtu", without=["mask", "read_write"])  # it takes no answer to them for one
+
+    def test_client_ascii(self):
+        self.client("ascii", without=BESIDES_THE_EIGHT)
 
     def test_server_tcp(self):
         self.server("tcp")
