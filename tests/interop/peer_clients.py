@@ -1,7 +1,7 @@
 """Other people's MODBUS clients, each with the calls that it has, under common names.
 
-A call returns numbers or texts, raises Refused for an exception response, and AssertionError for everything else. What is
-no method here, the peer does not have.
+A call returns numbers or texts, raises Refused for an exception response, and AssertionError for everything else. What
+is no method here, the peer does not have.
 """
 
 import ctypes

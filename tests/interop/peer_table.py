@@ -22,8 +22,8 @@ def rows():
 
 def debian_version(package):
     """Without what Debian adds to it."""
-    found = subprocess.run(["dpkg-query", "--show", "--showformat=${Version}", package], stdout=subprocess.PIPE, text=True,
-                           timeout=PATIENCE, check=True).stdout
+    found = subprocess.run(["dpkg-query", "--show", "--showformat=${Version}", package], stdout=subprocess.PIPE,
+                           text=True, timeout=PATIENCE, check=True).stdout
     return re.match(r"[\d.]+", found).group()
 
 
