@@ -99,12 +99,14 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
     if (transaction.echo_seen() && !std::exchange(echoes_, true))
         log::info("line {}: the adapter returns what it sends, that is left out from now on", config_.name);
     const unanswered_requests late{transaction.unanswered(), transaction.unanswered_since()};
+    for (unsigned i = 0; i < late.count; ++i)
+        connection_->missed_answer();
     if (const auto& outcome = transaction.outcome())
         routes_.answered(question, *outcome, now(), wall_now(), late);
     else
         routes_.failed(question, outcome.error(), now(), late);
     settle_();
-    co_return error_code{};
+    co_return connection_->deaf() ? error_code(asio::error::timed_out) : error_code{};
 }
 
 }  // namespace plcgw
