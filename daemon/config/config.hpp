@@ -64,6 +64,7 @@ struct line_config {
     parity check = parity::even;
     unsigned stop_bits = 1;
     rs485_config rs485;
+    bool low_latency = true;  // of a serial line, where the driver has it
     milliseconds response_timeout{500};
     unsigned retries = 1;
     milliseconds turnaround_delay{100};

@@ -20,7 +20,7 @@ FULL = {
               "channels": [{"channel": 1, "line": "l"}]},
              {"name": "b", "program_file": "setup.txt"}],
     "lines": [{"name": "l", "device": "/dev/ttyS0", "protocol": "modbus-rtu", "baud_rate": 9600, "data_bits": 8,
-               "parity": "none", "stop_bits": 2,
+               "parity": "none", "stop_bits": 2, "low_latency": False,
                "rs485": {"enabled": True, "rts_on_send": True, "rts_after_send": False, "rx_during_tx": False,
                          "delay_before_send_ms": 1, "delay_after_send_ms": 1},
                "response_timeout_ms": 300, "retries": 1, "turnaround_delay_ms": 50, "gap_us": 0, "silence_ms": 20},
