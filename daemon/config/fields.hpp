@@ -152,6 +152,9 @@ void describe(Visitor& v, tcp_server_config& c)
     v.optional("max_clients", c.max_clients, "Connections at a time", range{1, 10'000});
     v.optional("idle_timeout_s", c.idle_timeout, "Seconds until a silent client is disconnected; 0 = never",
                range{0, 86'400});
+    v.optional("max_outstanding", c.max_outstanding,
+               "Forwarded requests of one client under way at a time; then it is not read until one is answered",
+               range{1, 256});
 }
 
 template <class Visitor>
