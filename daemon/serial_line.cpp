@@ -72,12 +72,14 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
     if (echoes_ && question.timing.echo == local_echo::automatic)
         question.timing.echo = local_echo::on;
     modbus::serial_transaction transaction(question.unit, question.request, question.timing, line_free_from_, now());
-    for (;;) {
+    for (bool asked = false;;) {
         const auto action = transaction.next(now());
         if (std::holds_alternative<modbus::serial_transaction::done>(action))
             break;
         error_code ec;
         if (const auto* to_send = std::get_if<modbus::serial_transaction::send>(&action)) {
+            if (std::exchange(asked, true) && !routes_.is_wanted(question))
+                break;
             const time_point started = now();
             ec = co_await connection_->write(to_send->adu);
             transaction.sent(started);

@@ -95,7 +95,7 @@ void tcp_line::ask_again_or_fail(buffer& out)
     while (const auto expired = open_.take_expired(now())) {
         connection_.missed_answer();
         const under_way& each = questions_.at(expired->who);
-        if (each.attempts <= each.question.timing.retries)
+        if (each.attempts <= each.question.timing.retries && routes_.is_wanted(each.question))
             ask(expired->who, out);
         else
             finish(*expired);

@@ -43,6 +43,7 @@ tcp_server::tcp_server(asio::io_context& loop, tcp_server_config config, const u
     service_.endpoint = to_text(address());
     service_.units = units;
     service_.settle = std::move(settle);
+    service_.max_outstanding = config_.max_outstanding;
     service_.idle_timeout = config_.idle_timeout.count() == 0 ? for_ever : duration(config_.idle_timeout);
 }
 
@@ -103,8 +104,9 @@ std::shared_ptr<void> tcp_server::take_place()
 asio::awaitable<void> tcp_server::serve(tcp::socket client, std::string peer, std::shared_ptr<void> place)
 {
     auto framing = std::make_unique<mbap_framing>();
-    tcp_session session(std::move(client), std::move(peer), std::move(framing), service_);
-    co_await session.run();
+    const auto session =
+        std::make_shared<tcp_session>(std::move(client), std::move(peer), std::move(framing), service_);
+    co_await session->run();
     place.reset();
 }
 

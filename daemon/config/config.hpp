@@ -64,6 +64,7 @@ struct line_config {
     parity check = parity::even;
     unsigned stop_bits = 1;
     rs485_config rs485;
+    bool low_latency = true;  // of a serial line, where the driver has it
     milliseconds response_timeout{500};
     unsigned retries = 1;
     milliseconds turnaround_delay{100};
@@ -100,6 +101,7 @@ struct tcp_server_config {
     std::string other_units;  // PLC or line for the unit ids that are not listed; empty: exception 0A
     unsigned max_clients = 256;
     std::chrono::seconds idle_timeout{0};  // 0 = a client may be silent for ever
+    unsigned max_outstanding = 16;         // requests of one client that wait for lines at a time
 };
 
 struct block_config {

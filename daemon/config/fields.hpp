@@ -107,6 +107,8 @@ void describe(Visitor& v, line_config& c)
     v.optional("parity", c.check, "Parity bit", parities);
     v.optional("stop_bits", c.stop_bits, "Stop bits", range{1, 2});
     v.optional("rs485", c.rs485, "RS-485 direction control by the driver");
+    v.optional("low_latency", c.low_latency,
+               "Ask the driver to deliver bytes at once (ASYNC_LOW_LATENCY): USB adapters keep them for up to 16 ms");
     v.optional("response_timeout_ms", c.response_timeout,
                "Milliseconds from the end of a request to the first byte of its answer", range{1, 60'000});
     v.optional("retries", c.retries, "Repetitions of a request that got no good answer", range{0, 20});
@@ -155,6 +157,9 @@ void describe(Visitor& v, tcp_server_config& c)
     v.optional("max_clients", c.max_clients, "Connections at a time", range{1, 10'000});
     v.optional("idle_timeout_s", c.idle_timeout, "Seconds until a silent client is disconnected; 0 = never",
                range{0, 86'400});
+    v.optional("max_outstanding", c.max_outstanding,
+               "Forwarded requests of one client under way at a time; then it is not read until one is answered",
+               range{1, 256});
 }
 
 template <class Visitor>
