@@ -28,6 +28,12 @@ class Pymodbus(PeerTest):
     def test_client_ascii(self):
         self.client_row("ascii", peer_clients.Pymodbus)
 
+    def test_client_rtu_over_tcp(self):
+        self.client_row("rtu-over-tcp", peer_clients.Pymodbus)
+
+    def test_client_ascii_over_tcp(self):
+        self.client_row("ascii-over-tcp", peer_clients.Pymodbus)
+
     def test_server_tcp(self):
         self.server_row("tcp", peer_servers.pymodbus, self.answers)
 
@@ -98,6 +104,10 @@ class Jsmodbus(PeerTest):
         self.single_coil = (0,)  # for 1 it computes another CRC than that of the answer
         self.client("rtu")
 
+    def test_client_rtu_over_tcp(self):
+        self.single_coil = (0,)  # as on serial lines
+        self.client("rtu-over-tcp")
+
     def test_server_tcp(self):
         self.server("tcp")
 
@@ -133,6 +143,9 @@ class ModbusSerial(PeerTest):
 
     def test_client_ascii(self):
         self.client("ascii", without=BESIDES_THE_EIGHT)
+
+    def test_client_rtu_over_tcp(self):
+        self.client("rtu-over-tcp", without=BESIDES_THE_EIGHT)  # its "Telnet" port
 
     def test_server_tcp(self):
         self.server("tcp")
