@@ -9,6 +9,7 @@
 #include <boost/asio/write.hpp>
 
 #include <poll.h>
+#include <set>
 
 namespace plcgw {
 namespace {
@@ -97,6 +98,10 @@ void tcp_session::take_questions()
 
 void tcp_session::take(const modbus::tcp_frame& question)
 {
+    if (framing_->is_serial() && question.content.unit == modbus::unit_id::broadcast) {
+        take_broadcast(question.content.pdu);
+        return;
+    }
     const unit_target& to = service_.units[modbus::number(question.content.unit)];
     if (to.plc == nullptr && to.line != nullptr) {
         forward(question, to);
@@ -106,6 +111,15 @@ void tcp_session::take(const modbus::tcp_frame& question)
                                    : modbus::encode_exception(question.content.pdu[0],
                                                               modbus::exception_code::gateway_path_unavailable);
     framing_->append(replies_, {question.id, {question.content.unit, std::move(pdu)}});
+}
+
+// Executed by every PLC that stands here for a station, answered by nobody.
+void tcp_session::take_broadcast(bytes pdu)
+{
+    std::set<plc::simulated_plc*> plcs;
+    for (const unit_target& each : service_.units)
+        if (each.plc != nullptr && plcs.insert(each.plc).second)
+            serve_pdu(*each.plc, pdu, version);
 }
 
 void tcp_session::forward(const modbus::tcp_frame& question, const unit_target& to)
@@ -158,7 +172,7 @@ asio::awaitable<void> tcp_session::something_changed()
 
 bool tcp_session::is_full() const
 {
-    const std::size_t most = framing_->has_transaction_ids() ? service_.max_outstanding : 1;
+    const std::size_t most = framing_->is_serial() ? 1 : service_.max_outstanding;
     return under_way_ >= most || replies_.size() + sending_.size() >= most_unsent;
 }
 

@@ -56,6 +56,7 @@ private:
 
     void take_questions();
     void take(const modbus::tcp_frame& question);
+    void take_broadcast(bytes pdu);
     void forward(const modbus::tcp_frame& question, const unit_target& to);
     static asio::awaitable<void> ask_station(std::shared_ptr<tcp_session> self, station_key to);
     asio::awaitable<void> something_changed();

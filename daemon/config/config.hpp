@@ -94,10 +94,13 @@ struct route_config {
     milliseconds period{1000};
 };
 
+enum class server_framing : std::uint8_t { tcp, rtu, ascii };
+
 struct tcp_server_config {
     std::string listen = "127.0.0.1";
     unsigned port = 502;
     std::vector<unit_config> units;
+    server_framing framing = server_framing::tcp;
     std::string other_units;  // PLC or line for the unit ids that are not listed; empty: exception 0A
     unsigned max_clients = 256;
     std::chrono::seconds idle_timeout{0};  // 0 = a client may be silent for ever

@@ -33,6 +33,8 @@ inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_p
                                                            {"modbus-ascii", line_protocol::modbus_ascii},
                                                            {"modbus-tcp", line_protocol::modbus_tcp}};
 inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
+inline constexpr choice<server_framing> server_framings[] = {
+    {"tcp", server_framing::tcp}, {"rtu", server_framing::rtu}, {"ascii", server_framing::ascii}};
 inline constexpr choice<local_echo> local_echoes[] = {
     {"off", local_echo::off}, {"on", local_echo::on}, {"auto", local_echo::automatic}};
 inline constexpr choice<parity> parities[] = {{"none", parity::none}, {"odd", parity::odd}, {"even", parity::even}};
@@ -151,6 +153,9 @@ void describe(Visitor& v, tcp_server_config& c)
 {
     v.optional("listen", c.listen, "Address to listen on; 0.0.0.0 or :: for every interface", text{1});
     v.optional("port", c.port, "TCP port", range{1, 65'535});
+    v.optional("framing", c.framing,
+               "tcp: MODBUS TCP; rtu or ascii: serial device servers connect and pass on what is said on their lines",
+               server_framings);
     v.optional("units", c.units, "Which unit id leads to which PLC");
     v.optional("other_units", c.other_units, "PLC or line for all other unit ids; empty: they get exception 0A",
                text{0, 64});

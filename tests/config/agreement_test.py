@@ -33,7 +33,7 @@ FULL = {
     "routes": [{"name": "r", "station": "s", "table": "input", "first": 0, "count": 2, "plc": "a", "device": "D100",
                 "direction": "read", "period_ms": 500}],
     "modbus_tcp": [{"listen": "127.0.0.1", "port": 1502, "units": [{"unit": 1, "plc": "a"}, {"unit": 2, "line": "m", "line_unit": 3, "plc": "", "channel": 1}],
-                    "other_units": "a", "max_clients": 10, "idle_timeout_s": 60, "max_outstanding": 8}],
+                    "framing": "tcp", "other_units": "a", "max_clients": 10, "idle_timeout_s": 60, "max_outstanding": 8}],
     "dds": {"enabled": True, "domain": 3, "interface": "lo", "peers": ["10.0.0.1"], "partition": "plant", "member": "m",
             "longest_silence_ms": 500, "blocks": [{"plc": "a", "device": "D0", "count": 4}]},
     "log": {"level": "info"},
