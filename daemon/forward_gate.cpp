@@ -2,13 +2,16 @@
 
 namespace plcgw {
 
-asio::awaitable<std::optional<result<modbus::response>>>
-forward_gate::ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing)
+asio::awaitable<std::optional<result<modbus::response>>> forward_gate::ask(modbus::unit_id unit,
+                                                                           modbus::request request,
+                                                                           std::optional<modbus::serial_options> timing,
+                                                                           on_fault heard)
 {
     const auto ticket = line_.forward(unit, std::move(request), std::move(timing));
     if (!ticket)
         co_return std::nullopt;
     const auto entry = std::make_shared<waiting>(executor_);
+    entry->heard = std::move(heard);
     entry->done.expires_at(std::chrono::steady_clock::time_point::max());
     waiting_.emplace(*ticket, entry);
     driver_.wake();
@@ -20,6 +23,9 @@ forward_gate::ask(modbus::unit_id unit, modbus::request request, std::optional<m
 
 void forward_gate::deliver()
 {
+    for (const forward_fault& each : line_.take_forward_faults())
+        if (const auto found = waiting_.find(each.ticket); found != waiting_.end() && found->second->heard)
+            found->second->heard(each.why);
     for (forward_answer& each : line_.take_forwarded()) {
         const auto found = waiting_.find(each.ticket);
         if (found == waiting_.end())

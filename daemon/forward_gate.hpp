@@ -5,6 +5,7 @@
 #include "daemon/line_driver.hpp"
 #include "daemon/read_before.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -17,17 +18,27 @@ public:
     {
     }
 
-    // Nothing when too many requests wait already. timing: of the station or line, if absent.
-    asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
-                                                                 std::optional<modbus::serial_options> timing);
+    using on_fault = std::function<void(const modbus::answer_fault&)>;
 
-    void deliver();  // answers that the line has by now
+    // Nothing when too many requests wait already. timing: of the station or line, if absent. heard: called for each
+    // attempt that failed, when it did.
+    asio::awaitable<std::optional<result<modbus::response>>>
+    ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing, on_fault heard);
+
+    asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
+                                                                 std::optional<modbus::serial_options> timing)
+    {
+        return ask(unit, std::move(request), std::move(timing), nullptr);
+    }
+
+    void deliver();  // faults and answers that the line has by now
 
 private:
     struct waiting {
         explicit waiting(const asio::any_io_executor& executor) : done(executor) {}
         asio::steady_timer done;  // never expires, cancelled when the answer is there
         std::optional<result<modbus::response>> answer;
+        on_fault heard;
     };
 
     asio::any_io_executor executor_;

@@ -81,6 +81,8 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
             const time_point started = now();
             ec = co_await connection_.write(to_send->adu);
             transaction.sent(started);
+            if (transaction.attempts() > 1 && routes_.attempt_failed(question, {errc::timed_out, {}}))
+                settle_();  // a PLC's program shows its retries as they happen
         }
         else {
             const time_point until = std::get<modbus::serial_transaction::wait>(action).until;

@@ -166,6 +166,7 @@ std::optional<adprw_question> adprw_runner::ask(std::size_t index, time_point no
     states_[index].not_before = {};
     status_.started(of.step);
     asked_ = ++questions_;
+    failed_attempts_ = 0;
     return adprw_question{asked->unit, std::move(asked->request), timing(), of.step, *asked_, asked->target, index};
 }
 
@@ -178,11 +179,14 @@ adprw_timing adprw_runner::timing() const
             std::min<unsigned>(status_.setting(d.retries), most_retries)};
 }
 
-void adprw_runner::attempt_started(const adprw_question& q, unsigned attempt)
+void adprw_runner::attempt_failed(const adprw_question& q, const modbus::answer_fault& why)
 {
     follow_switch();
-    if (is_out(q) && attempt > 0)
-        status_.retrying(attempt);
+    if (!is_out(q))
+        return;
+    status_.count_fault(why);
+    if (++failed_attempts_ <= q.timing.retries)
+        status_.retrying(failed_attempts_);
 }
 
 void adprw_runner::finished(const adprw_question& q, const adprw_outcome& outcome, time_point now)
@@ -198,6 +202,7 @@ void adprw_runner::finished(const adprw_question& q, const adprw_outcome& outcom
         return;
     }
     const auto& answer = std::get<modbus::response>(outcome);
+    status_.count_answer(answer);
     if (const auto* exception = std::get_if<modbus::exception_code>(&answer))
         status_.failed(error_of(*exception, q), q.step);
     else if (!store_answer({q.unit, q.request, q.target}, answer, plc_->memory()))

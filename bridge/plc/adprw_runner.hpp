@@ -42,7 +42,9 @@ public:
     std::optional<adprw_question> next(time_point now);
     time_point wake_at(time_point now) const;  // when next() has something to do, if no device changes before
 
-    void attempt_started(const adprw_question& q, unsigned attempt);  // 0 = first, then the retries
+    // Nothing or no answer that fits came to one attempt; each of them is told before finished(). The next attempt
+    // begins at once, if there are retries left.
+    void attempt_failed(const adprw_question& q, const modbus::answer_fault& why);
     void finished(const adprw_question& q, const adprw_outcome& outcome, time_point now);
 
     bool is_out(const adprw_question& q) const { return asked_ == q.number; }
@@ -72,6 +74,7 @@ private:
     bool first_scan_ = true;     // M8002
     std::uint64_t questions_ = 0;
     std::optional<std::uint64_t> asked_;
+    unsigned failed_attempts_ = 0;  // of the question that is out
 };
 
 }  // namespace plcgw::plc

@@ -2,6 +2,7 @@
 // order in which they came.
 #pragma once
 
+#include "protocols/modbus/answer_fault.hpp"
 #include "protocols/modbus/response.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
@@ -24,6 +25,12 @@ struct forward_request {
 struct forward_answer {
     forward_ticket ticket{};
     result<modbus::response> response;
+};
+
+// One attempt of a request went wrong; others may follow, and its answer will.
+struct forward_fault {
+    forward_ticket ticket{};
+    modbus::answer_fault why;
 };
 
 class forward_queue {
@@ -60,11 +67,15 @@ public:
             answer(waiting_.front().ticket, make_error_code(why));
     }
 
+    void note_fault(forward_ticket ticket, modbus::answer_fault why) { faults_.push_back({ticket, std::move(why)}); }
+
     std::vector<forward_answer> take_answers() { return std::exchange(answers_, {}); }
+    std::vector<forward_fault> take_faults() { return std::exchange(faults_, {}); }
 
 private:
     std::deque<forward_request> waiting_;
     std::vector<forward_answer> answers_;
+    std::vector<forward_fault> faults_;
     std::uint64_t last_ = 0;
 };
 

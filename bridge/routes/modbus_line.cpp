@@ -107,6 +107,14 @@ std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
     return q;
 }
 
+bool modbus_line::attempt_failed(const question& q, const modbus::answer_fault& why)
+{
+    const auto* const forwarded = std::get_if<forward_ticket>(&q.origin);
+    if (forwarded != nullptr)
+        forwards_.note_fault(*forwarded, why);
+    return forwarded != nullptr;
+}
+
 void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
                            unanswered_requests late)
 {

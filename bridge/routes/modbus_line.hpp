@@ -34,6 +34,10 @@ public:
     std::optional<forward_ticket> forward(modbus::unit_id unit, modbus::request request,
                                           std::optional<modbus::serial_options> timing = {});
     std::vector<forward_answer> take_forwarded() { return forwards_.take_answers(); }
+    std::vector<forward_fault> take_forward_faults()
+    {
+        return forwards_.take_faults();
+    }  // to be told before the answers
 
     struct question {
         std::variant<schedule::turn, forward_ticket> origin;
@@ -45,6 +49,10 @@ public:
 
     std::optional<question> next(time_point now);
     time_point wake_at(time_point now) const { return forwards_.empty() ? schedule_.wake_at(now) : now; }
+
+    // What came, or did not, to one attempt of a question that is still out. True when somebody waits to hear of it:
+    // the PLC's program shows retries as they happen.
+    bool attempt_failed(const question& q, const modbus::answer_fault& why);
 
     // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered.
     void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,

@@ -311,7 +311,7 @@ TEST_CASE("adprw runner: STOP forgets the question that is out, RUN begins the p
     const auto out = f.question;
     f.plc.stop();
     CHECK(f.runner.wake_at(f.now) == time_point::max());
-    f.runner.attempt_started(*out, 1);
+    f.runner.attempt_failed(*out, {errc::timed_out, {}});
     f.answer({0x03, 0x02, 0x00, 0x07});
     f.check({{"D0", 0}, {"M8401", 0}, {"M8029", 0}, {"M8408", 0}});
     CHECK(station(f) == nobody);
