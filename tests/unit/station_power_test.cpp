@@ -301,6 +301,42 @@ TEST_CASE("plc: what is marked R in 6.1 and 6.3 is the PLC's own, what is marked
     CHECK(client.word("D8406") == 0x23);
 }
 
+TEST_CASE("plc: every setting of the program stands in its register, on both channels (12.5)")
+{
+    struct {
+        const char* name;
+        const char* value;
+        std::uint16_t number;
+    } const rows[] = {
+        {"D8400", "H1081", 0x1081}, {"D8401", "H1", 1},     {"D8409", "K2000", 2000}, {"D8410", "K300", 300},
+        {"D8411", "K10", 10},       {"D8412", "K3", 3},     {"D8414", "K247", 247},   {"D8415", "H101", 0x101},
+        {"D8416", "K500", 500},     {"D8420", "H91", 0x91}, {"D8429", "K7", 7},       {"D8430", "K8", 8},
+        {"D8431", "K9", 9},         {"D8432", "K20", 20},   {"D8434", "K1", 1},       {"D8435", "H1", 1},
+        {"D8436", "K900", 900},     {"D8421", "H0", 0},
+    };
+    std::string moves;
+    for (const auto& row : rows)
+        moves += std::string(moves.empty() ? "" : ", ") + row.value + " " + row.name;
+    const shown_plc p(moves);
+    CHECK(p.faults().empty());
+    for (const auto& row : rows) {
+        CAPTURE(row.name);
+        CHECK(p.word(row.name) == row.number);
+    }
+}
+
+TEST_CASE("plc: D8470 to D8485 allocate nothing on models without the user's allocation")
+{
+    for (const plc::model* m : all_models()) {
+        CAPTURE(std::string(m->name));
+        const shown_plc p("H5002 D8470, K0 D8471", *m);
+        const auto coil_0 = p.map().find(p.memory(), modbus::table::coils, modbus::address{0}, 1)->front().at;
+        const bool fx3u_kind = m->name == "FX3U" || m->name == "FX3UC";
+        CHECK(coil_0 == p.at(fx3u_kind ? "X0" : "M0"));
+        CHECK(p.faults().empty());
+    }
+}
+
 TEST_CASE("plc: settings written without LD M8411 change nothing, and power-on brings the program's back")
 {
     shown_plc p(std::string(server_1) + "H1 D8415, K100 D8416, H5002 D8470, K0 D8471");
