@@ -31,7 +31,9 @@ plc::channel_line shown_line(const line_config& line, plc::role as, unsigned uni
 {
     plc::channel_line shown{.as = as, .station = static_cast<std::uint8_t>(unit), .rs485 = line.rs485.enabled};
     if (line.protocol != line_protocol::modbus_tcp)
-        shown.format = character_format{line.baud_rate, line.data_bits, line.check, line.stop_bits};
+        shown.format = format_of(line);
+    if (line.protocol == line_protocol::modbus_ascii)
+        shown.mode = plc::framing::ascii;
     return shown;
 }
 

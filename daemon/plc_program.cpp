@@ -54,6 +54,7 @@ asio::awaitable<void> plc_program::ask(plc::adprw_question question)
     timing.turnaround = question.timing.turnaround;
     timing.gap = question.timing.message_delay;
     timing.retries = question.timing.retries;
+    timing.delimiter = question.timing.delimiter;
     std::optional<modbus::frame> received;  // by the last attempt
     forward_gate::on_fault heard = [&](const modbus::answer_fault& why) {
         runner_.attempt_failed(question, why);

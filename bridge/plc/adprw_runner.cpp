@@ -11,6 +11,7 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t run_monitor = 8000;
 constexpr std::uint32_t initial_pulse = 8002;
 
+constexpr std::uint8_t line_feed = 0x0A;
 constexpr unsigned most_retries = 20;
 constexpr std::uint16_t longest_timeout = 32767;        // ms, D8409 and D8410
 constexpr std::uint16_t longest_message_delay = 16382;  // ms, D8411
@@ -176,7 +177,8 @@ adprw_timing adprw_runner::timing() const
     return {time_of(status_.setting(d.response_timeout), longest_timeout, default_response_timeout),
             time_of(status_.setting(d.turnaround_delay), longest_timeout, default_turnaround),
             time_of(status_.setting(d.message_delay), longest_message_delay, {}),
-            std::min<unsigned>(status_.setting(d.retries), most_retries)};
+            std::min<unsigned>(status_.setting(d.retries), most_retries),
+            d.delimiter == 0 ? line_feed : static_cast<std::uint8_t>(status_.setting(d.delimiter))};
 }
 
 void adprw_runner::attempt_failed(const adprw_question& q, const modbus::answer_fault& why)

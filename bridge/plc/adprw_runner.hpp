@@ -8,12 +8,13 @@
 
 namespace plcgw::plc {
 
-// D8409 to D8412, as they are when the instruction begins. An invalid time is the nearest valid one.
+// D8406 and D8409 to D8412, as they are when the instruction begins. An invalid time is the nearest valid one.
 struct adprw_timing {
     duration response_timeout{3'000'000};
     duration turnaround{400'000};  // after a broadcast
     duration message_delay{};      // before a request; at least 3.5 characters, 0 stands for these
     unsigned retries = 0;
+    std::uint8_t delimiter = 0x0A;  // D8406: the second end character of ASCII
     bool operator==(const adprw_timing&) const = default;
 };
 

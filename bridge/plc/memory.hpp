@@ -45,7 +45,7 @@ public:
     std::uint16_t word(place p) const;
     void read(place p, std::span<std::uint16_t> words) const;
     void set_bit(place p, bool value);
-    void set_word(place p, std::uint16_t value);
+    void set_word(place p, std::uint16_t value);  // bits of no device stay 0
 
     // Devices that nobody but the PLC sets: show_word() and show_bit() do, the others pass over them.
     void set_protected(place p, std::size_t bits, bool on);

@@ -279,6 +279,8 @@ class SerialServerTest(InteropTest):
         self.start_gateway(self.configuration(lines=[
             {"name": "bus", "device": str(self.folder / "line"), "parity": "none", "role": "server",
              "units": [{"unit": 5, "plc": "main", "channel": 1}]}]))
+        door = self.programs[0].client()
+        wait_for("error 201 of channel 1", lambda: door.holding(D8402, 2) == [201, 1])
         raw = self.raw = RawClient(self)
         wait_for("the line is open", lambda: "is open" in self.programs[0].log)
         time.sleep(0.1)
