@@ -2,10 +2,12 @@
 
 namespace plcgw {
 
-asio::awaitable<std::optional<result<modbus::response>>>
-forward_gate::ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing)
+asio::awaitable<std::optional<result<modbus::response>>> forward_gate::ask(modbus::unit_id unit,
+                                                                           modbus::request request,
+                                                                           std::optional<modbus::serial_options> timing,
+                                                                           on_fault heard)
 {
-    const handle asked = begin(unit, std::move(request), std::move(timing));
+    const handle asked = begin(unit, std::move(request), std::move(timing), std::move(heard));
     if (!asked)
         co_return std::nullopt;
     auto answer = co_await finish(asked);
@@ -13,12 +15,13 @@ forward_gate::ask(modbus::unit_id unit, modbus::request request, std::optional<m
 }
 
 forward_gate::handle forward_gate::begin(modbus::unit_id unit, modbus::request request,
-                                         std::optional<modbus::serial_options> timing)
+                                         std::optional<modbus::serial_options> timing, on_fault heard)
 {
     const auto ticket = line_.forward(unit, std::move(request), std::move(timing));
     if (!ticket)
         return nullptr;
     const auto entry = std::make_shared<waiting>(executor_, *ticket);
+    entry->heard = std::move(heard);
     entry->done.expires_at(std::chrono::steady_clock::time_point::max());
     waiting_.emplace(*ticket, entry);
     driver_.wake();
@@ -45,6 +48,9 @@ void forward_gate::cancel(const handle& asked)
 
 void forward_gate::deliver()
 {
+    for (const forward_fault& each : line_.take_forward_faults())
+        if (const auto found = waiting_.find(each.ticket); found != waiting_.end() && found->second->heard)
+            found->second->heard(each.why);
     for (forward_answer& each : line_.take_forwarded()) {
         const auto found = waiting_.find(each.ticket);
         if (found == waiting_.end())

@@ -5,6 +5,7 @@
 #include "daemon/line_driver.hpp"
 #include "daemon/read_before.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -17,24 +18,30 @@ public:
     {
     }
 
+    using on_fault = std::function<void(const modbus::answer_fault&)>;
+
     struct waiting {
         waiting(const asio::any_io_executor& executor, forward_ticket t) : done(executor), ticket(t) {}
         asio::steady_timer done;  // never expires, cancelled when the answer is there
         forward_ticket ticket;
         std::optional<result<modbus::response>> answer;
+        on_fault heard;
     };
     using handle = std::shared_ptr<waiting>;
 
-    // Nothing when too many requests wait already. timing: of the station or line, if absent.
+    // Nothing when too many requests wait already. timing: of the station or line, if absent. heard: called for each
+    // attempt that failed, when it did.
     asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
-                                                                 std::optional<modbus::serial_options> timing);
+                                                                 std::optional<modbus::serial_options> timing,
+                                                                 on_fault heard = {});
 
     // The same in parts, for who may have to leave before the answer. Null when too many wait.
-    handle begin(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing);
+    handle begin(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing = {},
+                 on_fault heard = {});
     static asio::awaitable<result<modbus::response>> finish(handle asked);
     void cancel(const handle& asked);  // finish() ends with asio::error::operation_aborted
 
-    void deliver();  // answers that the line has by now
+    void deliver();  // faults and answers that the line has by now
 
 private:
     asio::any_io_executor executor_;

@@ -72,8 +72,12 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
     if (echoes_ && question.timing.echo == local_echo::automatic)
         question.timing.echo = local_echo::on;
     modbus::serial_transaction transaction(question.unit, question.request, question.timing, line_free_from_, now());
-    for (bool asked = false;;) {
+    bool asked = false;
+    for (std::size_t told = 0;;) {
         const auto action = transaction.next(now());
+        for (; told < transaction.faults().size(); ++told)
+            if (routes_.attempt_failed(question, transaction.faults()[told]))
+                settle_();  // a PLC's program shows its retries as they happen
         if (std::holds_alternative<modbus::serial_transaction::done>(action))
             break;
         error_code ec;

@@ -95,6 +95,7 @@ void tcp_line::ask_again_or_fail(buffer& out)
     while (const auto expired = open_.take_expired(now())) {
         connection_.missed_answer();
         const under_way& each = questions_.at(expired->who);
+        routes_.attempt_failed(each.question, {errc::timed_out, {}});
         if (each.attempts <= each.question.timing.retries && routes_.is_wanted(each.question))
             ask(expired->who, out);
         else

@@ -145,7 +145,7 @@ asio::awaitable<void> tcp_session::ask_station(std::shared_ptr<tcp_session> self
     while (!self->abandoned_ && !queue.waiting.empty()) {
         const forwarded& first = queue.waiting.front();
         std::optional<result<modbus::response>> answer;
-        queue.under_way = to.first->begin(to.second, first.request, std::nullopt);
+        queue.under_way = to.first->begin(to.second, first.request);
         if (queue.under_way) {
             auto answered = co_await forward_gate::finish(queue.under_way);
             answer = std::move(answered);

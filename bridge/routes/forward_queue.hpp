@@ -2,6 +2,7 @@
 // order in which they came.
 #pragma once
 
+#include "protocols/modbus/answer_fault.hpp"
 #include "protocols/modbus/response.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
@@ -25,6 +26,12 @@ struct forward_request {
 struct forward_answer {
     forward_ticket ticket{};
     result<modbus::response> response;
+};
+
+// One attempt of a request went wrong; others may follow, and its answer will.
+struct forward_fault {
+    forward_ticket ticket{};
+    modbus::answer_fault why;
 };
 
 class forward_queue {
@@ -75,12 +82,16 @@ public:
     // Somebody waits for the answer of this request, which was taken.
     bool is_wanted(forward_ticket ticket) const { return under_way_.contains(ticket); }
 
+    void note_fault(forward_ticket ticket, modbus::answer_fault why) { faults_.push_back({ticket, std::move(why)}); }
+
     std::vector<forward_answer> take_answers() { return std::exchange(answers_, {}); }
+    std::vector<forward_fault> take_faults() { return std::exchange(faults_, {}); }
 
 private:
     std::deque<forward_request> waiting_;
     std::set<forward_ticket> under_way_;
     std::vector<forward_answer> answers_;
+    std::vector<forward_fault> faults_;
     std::uint64_t last_ = 0;
 };
 
