@@ -33,7 +33,7 @@ public:
     // attempt that failed, when it did.
     asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
                                                                  std::optional<modbus::serial_options> timing,
-                                                                 on_fault heard = {});
+                                                                 on_fault heard);
 
     // The same in parts, for who may have to leave before the answer. Null when too many wait.
     handle begin(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing = {},
