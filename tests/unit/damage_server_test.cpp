@@ -246,4 +246,20 @@ TEST_CASE("damage, ASCII server: a request that comes twice is carried out and a
     all.check(30);
 }
 
+TEST_CASE("damage, server: too short is a communication error, too long a character overrun (6.4, 12.6)")
+{
+    aftermath overrun = nothing;
+    overrun.counters[7] = 1;
+    overrun.log.insert(overrun.log.begin(), event::received | event::overrun);
+    overrun.error = 206;
+
+    server_line rtu(framing::rtu);
+    CHECK(rtu.hear_all(buffer{1, 7, 0}) == lost(crc_or_lrc));
+    CHECK(rtu.hear_all(rtu_frame(us, buffer(254, 0x55))) == overrun);  // 257 bytes
+
+    server_line ascii(framing::ascii);
+    CHECK(ascii.hear_all(buffer{':', '0', '1', 'F', 'F', '0', '\r', '\n'}) == lost(crc_or_lrc));
+    CHECK(ascii.hear_all(ascii_frame(us, buffer(254, 0x55))) == overrun);  // 515 characters
+}
+
 TEST_SUITE_END();
