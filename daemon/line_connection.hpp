@@ -29,6 +29,11 @@ public:
                                                                      asio::mutable_buffer into) = 0;
     virtual void interrupt() = 0;
 
+    // A question went without an answer. A device server or MODBUS TCP server that has lost its mind, or its power,
+    // may hold a connection on which nothing comes any more: then it is deaf, and to be closed and opened again.
+    virtual void missed_answer() {}
+    virtual bool deaf() const { return false; }
+
     // For the quality of what came over it.
     virtual std::string absence() const = 0;
 };

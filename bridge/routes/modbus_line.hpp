@@ -37,6 +37,9 @@ public:
                                           std::optional<modbus::serial_options> timing = {});
     std::vector<forward_answer> take_forwarded() { return forwards_.take_answers(); }
 
+    // The asker has left: its request does not use the line any more, as far as that can be helped.
+    void cancel(forward_ticket ticket) { forwards_.cancel(ticket); }
+
     struct question {
         std::variant<schedule::turn, forward_ticket> origin;
         modbus::unit_id unit{};
@@ -47,6 +50,13 @@ public:
 
     std::optional<question> next(time_point now);
     time_point wake_at(time_point now) const { return forwards_.empty() ? schedule_.wake_at(now) : now; }
+
+    // False when its asker has left: what was sent cannot be called back, but it is not worth a repetition.
+    bool is_wanted(const question& q) const
+    {
+        const auto* const forwarded = std::get_if<forward_ticket>(&q.origin);
+        return forwarded == nullptr || forwards_.is_wanted(*forwarded);
+    }
 
     // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered.
     void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
