@@ -29,6 +29,10 @@ public:
                                                                      asio::mutable_buffer into) = 0;
     virtual void interrupt() = 0;
 
+    // Characters with a wrong parity or stop bit, or that came too fast, since the last call; 0 where nobody counts
+    // them.
+    virtual std::uint64_t take_bit_errors() { return 0; }
+
     // A question went without an answer. A device server or MODBUS TCP server that has lost its mind, or its power,
     // may hold a connection on which nothing comes any more: then it is deaf, and to be closed and opened again.
     virtual void missed_answer() {}

@@ -80,6 +80,15 @@ boost::system::result<int> open_serial_port(const line_config& line, std::string
     return fd;
 }
 
+std::optional<std::uint64_t> bit_errors_of(int fd)
+{
+    serial_icounter_struct counters{};
+    if (::ioctl(fd, TIOCGICOUNT, &counters) != 0)
+        return std::nullopt;
+    return std::uint64_t{static_cast<unsigned>(counters.frame)} + static_cast<unsigned>(counters.parity) +
+           static_cast<unsigned>(counters.overrun);
+}
+
 void forget_output(int fd) { ::ioctl(fd, TCFLSH, TCOFLUSH); }
 
 }  // namespace plcgw

@@ -6,6 +6,7 @@
 
 #include <boost/system/result.hpp>
 
+#include <optional>
 #include <string>
 
 namespace plcgw {
@@ -13,6 +14,10 @@ namespace plcgw {
 // The open port's descriptor, or why it could not be opened. On success `warning` may say what the driver could not do.
 // A pty keeps no parity and knows no RS-485.
 boost::system::result<int> open_serial_port(const line_config& line, std::string& warning);
+
+// Characters with a wrong parity or stop bit and overruns, as the driver counts them; nothing where it does not, on a
+// pty for one.
+std::optional<std::uint64_t> bit_errors_of(int fd);
 
 // Before closing: the kernel would wait for output that a hung adapter does not take, up to 30 s.
 void forget_output(int fd);

@@ -80,8 +80,11 @@ asio::awaitable<error_code> serial_server::take(bus_event event)
 {
     const bool ascii = framing_of(config_) == modbus::framing::ascii;
     const auto is_end_of_frame = [&](modbus_station& at) { return !ascii || at.delimiter() == in_.delimiter(); };
+    const bool bits_wrong = connection_->take_bit_errors() > 0;
     for (modbus_station& each : stations_) {
-        if (event.what == bus_event::kind::dropped)
+        if (event.what == bus_event::kind::dropped && bits_wrong)
+            each.bit_error();
+        else if (event.what == bus_event::kind::dropped)
             each.bus_error(event.why);
         else if (is_end_of_frame(each))
             each.bus_message();
