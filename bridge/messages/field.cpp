@@ -61,6 +61,15 @@ std::optional<field_fault> store_whole(const field& f, const decimal& number, wo
     return std::nullopt;
 }
 
+template <class Bits, class Float>
+std::optional<field_fault> store_float(std::optional<Float> number, word_order order, words into)
+{
+    if (!number)
+        return field_fault::out_of_range;
+    put(std::bit_cast<Bits>(*number), order, into);
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::size_t registers_of(const field& f)
@@ -86,14 +95,8 @@ std::optional<field_fault> store(const field& f, const capture& value, words int
             return field_fault::too_long;
         pack({reinterpret_cast<const std::uint8_t*>(value.text.data()), value.text.size()}, into);
         return std::nullopt;
-    case value_type::float32:
-        if (const auto number = to_float(value.number, f.decimals))
-            return put(std::bit_cast<std::uint32_t>(*number), f.order, into), std::nullopt;
-        return field_fault::out_of_range;
-    case value_type::float64:
-        if (const auto number = to_double(value.number, f.decimals))
-            return put(std::bit_cast<std::uint64_t>(*number), f.order, into), std::nullopt;
-        return field_fault::out_of_range;
+    case value_type::float32: return store_float<std::uint32_t>(to_float(value.number, f.decimals), f.order, into);
+    case value_type::float64: return store_float<std::uint64_t>(to_double(value.number, f.decimals), f.order, into);
     default: return store_whole(f, value.number, into);
     }
 }

@@ -35,7 +35,12 @@ private:
 
     char peek() const { return at_end() ? '\0' : text_[at_]; }
     bool digit_here() const { return !at_end() && is_digit(peek()); }
-    bool skip(char c) { return !at_end() && peek() == c && ++at_ != 0; }
+    bool skip(char c)
+    {
+        const bool here = !at_end() && peek() == c;
+        at_ += here ? 1 : 0;
+        return here;
+    }
     void skip_spaces()
     {
         while (skip(' '))

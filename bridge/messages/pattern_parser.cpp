@@ -31,6 +31,15 @@ std::optional<std::size_t> count_of(std::string_view text, std::string_view word
     return error == std::errc{} && end == digits.data() + digits.size() ? count : 0;
 }
 
+bool takes_digits(const element& e) { return e.kind == form::number || e.kind == form::scientific; }
+
+// Whether a number without a picture would go on with this character.
+bool takes(const element& number, char next)
+{
+    const bool begins_exponent = number.kind == form::scientific && (next == 'e' || next == 'E');
+    return is_digit(next) || next == number.point || begins_exponent;
+}
+
 }  // namespace
 
 class pattern_parser {
@@ -177,8 +186,7 @@ private:
             if (first.kind == form::rest_of_text && second.kind != form::literal)
                 fail(second.position, first.text + " does not know where to end before " + second.text +
                                           ": put text between them, or say how long it is, as text(5)");
-            if ((first.kind == form::number || first.kind == form::scientific) &&
-                (is_number(second.kind) || is_digit(next) || (next == first.point && next != '\0')))
+            if (takes_digits(first) && (is_number(second.kind) || takes(first, next)))
                 fail(second.position, first.text + " takes the digits that follow it: put something between them, or " +
                                           "use a picture as ###.#");
             if (first.kind == form::spaces && next == ' ')

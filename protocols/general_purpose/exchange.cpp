@@ -62,7 +62,7 @@ void exchange::feed(time_point now, bytes received)
     line_free_from_ = std::max(line_free_from_, now + options_.gap);
     if (state_ == state::wait_for_answer)
         heard_ = now;
-    if (failure_ != errc::collision)
+    if (!collided())
         in_.feed(now, received);
 }
 
@@ -70,7 +70,8 @@ void exchange::fault(time_point now, errc why)
 {
     if (state_ == state::wait_for_answer)
         heard_ = now;
-    in_.fault(now, why);
+    if (!collided())
+        in_.fault(now, why);
 }
 
 // Characters that are not ours, where ours must be, and all that follow them are nobody's message.
@@ -130,8 +131,9 @@ void exchange::fail_attempt(time_point now)
         failure_ = failure_.value_or(errc::incomplete);
         in_.abandon();
     }
+    const errc why = std::exchange(failure_, std::nullopt).value_or(errc::timed_out);
     if (attempts_ > options_.retries) {
-        finish(make_error_code(failure_.value_or(errc::timed_out)));
+        finish(make_error_code(why));
         return;
     }
     send_at_ = now + options_.send_wait;

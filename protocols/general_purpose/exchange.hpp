@@ -63,6 +63,7 @@ private:
     action wait_for_answer(time_point now);
     void collect(time_point now);
     bytes without_echo(bytes received);
+    bool collided() const { return failure_ == errc::collision; }
     time_point give_up_at() const;
     void fail_attempt(time_point now);
     void finish(result<buffer> outcome);

@@ -1,4 +1,5 @@
 #include "protocols/general_purpose/encode.hpp"
+#include "protocols/general_purpose/message_framer.hpp"
 #include "protocols/general_purpose/receive_buffers.hpp"
 #include "tests/support/messages.hpp"
 
@@ -78,6 +79,42 @@ TEST_CASE("receive buffers: or only the ninth is lost, where the line says so")
     fill(in, 11, 11);
     CHECK(take_all(in) == texts{"2", "3", "4", "5", "6", "7", "8", "11"});
     CHECK(in.error_code() == 0x0200);  // somebody should know, until a reset
+}
+
+TEST_CASE("receive buffers: a reader that is too slow loses messages, and every one of them is counted")
+{
+    for (const int taken_every : {1, 2, 3, 10}) {
+        receive_buffers in(when_full::drop);
+        message_framer line(cr);
+        int last = 0;
+        std::uint64_t taken = 0;
+        for (int i = 1; i <= 1000; ++i) {
+            line.feed(t0, raw(std::to_string(i) + '\r'));
+            while (auto each = line.next(t0))
+                in.add(std::move(*each));
+            if (i % taken_every != 0)
+                continue;
+            const auto message = in.take();
+            REQUIRE(message.has_value());
+            const int number = std::stoi(text_of(*message));
+            CHECK(number > last);
+            last = number;
+            ++taken;
+        }
+        CHECK(in.counters().received + in.counters().lost == 1000);
+        CHECK(in.counters().received == taken + in.waiting());
+        CHECK((in.counters().lost == 0) == (taken_every == 1));
+        CHECK((in.error_code() == 0) == (taken_every == 1));
+    }
+}
+
+TEST_CASE("general purpose: the codes of PMGET (10.3.2, D+8 and D+9)")
+{
+    CHECK(static_cast<int>(start_code::stx) == 1);
+    CHECK(static_cast<int>(end_code::cr) == 0);
+    CHECK(static_cast<int>(end_code::cr_lf) == 1);
+    CHECK(static_cast<int>(end_code::silence) == 2);
+    CHECK(static_cast<int>(end_code::etx) == 3);
 }
 
 TEST_CASE("receive buffers: a reset empties them")

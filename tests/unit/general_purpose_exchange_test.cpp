@@ -287,6 +287,27 @@ TEST_CASE("message exchange: an echo that came back changed is a collision, and 
     failing.ends(t0 + 25ms, "! own request came back changed");
 }
 
+TEST_CASE("message exchange: after a collision the line is heard again")
+{
+    auto options = usual();
+    options.echo = local_echo::on;
+    options.send_wait = 10ms;
+    bench b(options);
+    b.sends(t0 + 10ms);
+    b.ex.feed(t0 + 15ms, raw("QQ"));
+    b.ex.fault(t0 + 15ms, errc::bad_parity);  // of the same bytes
+    b.waits(t0 + 35ms, t0 + 45ms);
+    b.ex.feed(t0 + 40ms, raw("news\r"));
+    b.sends(t0 + 45ms);
+    CHECK(b.others() == texts{"news"});
+    b.ex.feed(t0 + 50ms, raw("QQ"));
+    b.ends(t0 + 70ms, "! own request came back changed");
+    b.ex.feed(t0 + 80ms, raw("more\r"));
+    texts rest;
+    drain(b.in, t0 + 80ms, rest);
+    CHECK(rest == texts{"more"});
+}
+
 TEST_CASE("message listener: each message by itself, none lost between two listeners")
 {
     message_framer in(cr);

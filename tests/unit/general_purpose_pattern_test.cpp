@@ -155,6 +155,8 @@ const mistake_row mistakes[] = {
                                   "picture as ###.#"}},
     {"{n:number}.{m}",       {11, "{n:number} takes the digits that follow it: put something between them, or use a "
                                   "picture as ###.#"}},
+    {"{v:scientific}EUR",    {15, "{v:scientific} takes the digits that follow it: put something between them, or use a "
+                                  "picture as ###.#"}},
     {"{_:spaces} {n}",       {11, "{_:spaces} takes the space that follows it"}},
     {"ab\\q{n}",             {3, "a \\ must be followed by one of \\ { } < r n t, or by x and two digits"}},
     {"ab<FOO>{n}",           {3, "<FOO> is no control code; for the characters write \\<FOO>"}},
