@@ -125,6 +125,8 @@ time_point exchange::give_up_at() const
 
 void exchange::fail_attempt(time_point now)
 {
+    if (!failure_ && unanswered_++ == 0)
+        unanswered_since_ = sent_until_;
     if (in_.inside()) {
         if (!failure_)
             others_.emplace_back(make_error_code(errc::incomplete));

@@ -51,6 +51,10 @@ public:
     const result<buffer>& outcome() const { return outcome_; }
     unsigned attempts() const { return attempts_; }
     duration response_time() const { return response_time_; }  // to the end of the answer
+    // Attempts to which nothing whole came, and the end of the first of them. Their answers may still come: give them
+    // time before something else is asked.
+    unsigned unanswered() const { return unanswered_; }
+    time_point unanswered_since() const { return unanswered_since_; }
     time_point line_free_from() const { return line_free_from_; }
 
     // What else came, in its order: messages that nobody asked for, and losses. Theirs is the way of all messages.
@@ -81,6 +85,8 @@ private:
     std::size_t echoed_ = 0;           // bytes of our own message that came back
     std::optional<errc> failure_;      // of this attempt
     unsigned attempts_ = 0;
+    unsigned unanswered_ = 0;
+    time_point unanswered_since_{};
     duration response_time_{};
     std::vector<result<buffer>> others_;
     result<buffer> outcome_ = make_error_code(errc::timed_out);

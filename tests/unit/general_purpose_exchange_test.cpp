@@ -89,12 +89,16 @@ TEST_CASE("message exchange: without an answer it is asked again, then given up"
     b.waits(t0 + 102ms, t0 + 204ms);
     b.ends(t0 + 204ms, "! no answer");
     CHECK(b.ex.attempts() == 2);
+    CHECK(b.ex.unanswered() == 2);
+    CHECK(b.ex.unanswered_since() == t0 + 2ms);
 
     bench again;
     again.sends(t0);
     again.sends(t0 + 102ms);
     again.ex.feed(t0 + 110ms, raw("1\r"));
     again.ends(t0 + 110ms, "1");
+    CHECK(again.ex.unanswered() == 1);  // it may be the first one's answer, and another come
+    CHECK(again.ex.unanswered_since() == t0 + 2ms);
 }
 
 TEST_CASE("message exchange: a long answer may take longer than the response timeout")
@@ -150,6 +154,7 @@ TEST_CASE("message exchange: a damaged answer is asked for again when the line f
     b.ex.feed(t0 + 50ms, raw("123\r"));
     b.ends(t0 + 50ms, "123");
     CHECK(b.others() == texts{"! parity error"});
+    CHECK(b.ex.unanswered() == 0);  // it had answered
 
     auto once = usual();
     once.retries = 0;
