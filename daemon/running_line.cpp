@@ -1,5 +1,6 @@
 #include "daemon/running_line.hpp"
 
+#include "daemon/line_connection.hpp"
 #include "daemon/serial_line.hpp"
 #include "daemon/tcp_line.hpp"
 
@@ -43,13 +44,14 @@ route make_route(const route_config& from, const find_plc& plc)
 
 modbus::serial_options timing_of(const line_config& line)
 {
-    return {.format = {line.baud_rate, line.data_bits, line.check, line.stop_bits},
+    return {.format = format_of(line),
             .response_timeout = line.response_timeout,
             .retries = line.retries,
             .turnaround = line.turnaround_delay,
             .gap = line.gap,
             .silence = line.silence,
-            .echo = line.rs485.enabled && line.rs485.rx_during_tx ? local_echo::on : line.echo};
+            .echo = line.rs485.enabled && line.rs485.rx_during_tx ? local_echo::on : line.echo,
+            .mode = framing_of(line)};
 }
 
 modbus::serial_options timing_of(const line_config& line, const station_config& station)

@@ -20,20 +20,15 @@ constexpr duration short_life = std::chrono::milliseconds(100);
 
 }  // namespace
 
-character_format format_of(const line_config& line)
-{
-    return {line.baud_rate, line.data_bits, line.check, line.stop_bits};
-}
-
 serial_connection::serial_connection(asio::io_context& loop, const line_config& line)
-    : port(loop), guard(port), line_(line), pause_(loop), next_pause_(first_pause)
+    : line_(line), port_(loop), guard_(port_), pause_(loop), next_pause_(first_pause)
 {
 }
 
 serial_connection::~serial_connection()
 {
-    if (port.is_open())
-        forget_output(port.native_handle());
+    if (port_.is_open())
+        forget_output(port_.native_handle());
 }
 
 asio::awaitable<bool> serial_connection::open()
@@ -60,7 +55,7 @@ error_code serial_connection::try_open()
     if (!fd)
         return fd.error();
     error_code ec;
-    if (port.assign(*fd, ec); ec) {
+    if (port_.assign(*fd, ec); ec) {
         ::close(*fd);
         return ec;
     }
@@ -78,8 +73,8 @@ error_code serial_connection::try_open()
 void serial_connection::close(const error_code& why)
 {
     error_code ignored;
-    forget_output(port.native_handle());
-    port.close(ignored);
+    forget_output(port_.native_handle());
+    port_.close(ignored);
     // A half-dead adapter opens and fails at once, again and again: that is a back-off, too, and said once.
     failed_at_once_ = now() - opened_at_ < short_life;
     if (!failed_at_once_ || last_error_ != why)
@@ -92,12 +87,19 @@ void serial_connection::close(const error_code& why)
 
 asio::awaitable<error_code> serial_connection::write(bytes adu)
 {
-    guard.arm(now() + character_time(format_of(line_), adu.size()) + write_slack);
-    const auto [ec, size] = co_await asio::async_write(port, asio::buffer(adu.data(), adu.size()), no_throw);
-    const bool cut_short = guard.disarm();
+    guard_.arm(now() + character_time(format_of(line_), adu.size()) + write_slack);
+    const auto [ec, size] = co_await asio::async_write(port_, asio::buffer(adu.data(), adu.size()), no_throw);
+    const bool cut_short = guard_.disarm();
     if (ec == asio::error::operation_aborted && cut_short)
         co_return error_code(asio::error::timed_out);
     co_return ec;
+}
+
+asio::awaitable<boost::system::result<std::size_t>> serial_connection::read(time_point deadline,
+                                                                            asio::mutable_buffer into)
+{
+    const auto size = co_await read_before(deadline, port_, guard_, into);
+    co_return size;
 }
 
 }  // namespace plcgw

@@ -1,38 +1,33 @@
-// A serial port that is opened, and opened again when it comes back: absence is a normal state.
+// A serial port of this machine.
 #pragma once
 
-#include "daemon/config/config.hpp"
-#include "daemon/read_before.hpp"
+#include "daemon/line_connection.hpp"
 
-#include <boost/asio/io_context.hpp>
 #include <boost/asio/serial_port.hpp>
 
 namespace plcgw {
 
-character_format format_of(const line_config& line);
-
-class serial_connection {
+class serial_connection final : public line_connection {
 public:
     serial_connection(asio::io_context& loop, const line_config& line);
 
-    ~serial_connection();
+    ~serial_connection() override;
     serial_connection(const serial_connection&) = delete;
     serial_connection& operator=(const serial_connection&) = delete;
 
-    // True when it is open now; false after a failed attempt and the pause behind it, so that the caller can say so.
-    asio::awaitable<bool> open();
-    void close(const boost::system::error_code& why);
-
-    // The time on the wire and a second: a driver that takes longer hangs.
-    asio::awaitable<boost::system::error_code> write(bytes adu);
-
-    asio::serial_port port;
-    deadline_guard<asio::serial_port> guard;
+    asio::awaitable<bool> open() override;
+    void close(const boost::system::error_code& why) override;
+    asio::awaitable<boost::system::error_code> write(bytes adu) override;
+    asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline, asio::mutable_buffer into) override;
+    void interrupt() override { guard_.interrupt(); }
+    std::string absence() const override { return "port absent"; }
 
 private:
     boost::system::error_code try_open();
 
     const line_config& line_;
+    asio::serial_port port_;
+    deadline_guard<asio::serial_port> guard_;
     asio::steady_timer pause_;
     milliseconds next_pause_;
     boost::system::error_code last_error_;  // and said so

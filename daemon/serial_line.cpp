@@ -9,8 +9,8 @@ namespace plcgw {
 using boost::system::error_code;
 
 serial_line::serial_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle)
-    : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), connection_(loop, config_),
-      gap_(std::max<duration>(config_.gap, frame_gap(format_of(config_))))
+    : config_(std::move(config)), routes_(routes), settle_(std::move(settle)),
+      connection_(make_connection(loop, config_)), gap_(std::max<duration>(config_.gap, frame_gap(format_of(config_))))
 {
 }
 
@@ -18,14 +18,14 @@ asio::awaitable<void> serial_line::run()
 {
     routes_.start(now());
     for (;;) {
-        const bool is_open = co_await connection_.open();
+        const bool is_open = co_await connection_->open();
         if (is_open) {
             line_free_from_ = now() + gap_;
             routes_.port_opened();
             const error_code ec = co_await serve();
-            connection_.close(ec);
+            connection_->close(ec);
         }
-        routes_.port_lost(is_open ? "port lost" : "port absent");
+        routes_.port_lost(connection_->absence());
         settle_();
     }
 }
@@ -33,7 +33,7 @@ asio::awaitable<void> serial_line::run()
 void serial_line::wake()
 {
     if (idle_)
-        connection_.guard.interrupt();
+        connection_->interrupt();
 }
 
 asio::awaitable<error_code> serial_line::serve()
@@ -58,7 +58,7 @@ asio::awaitable<error_code> serial_line::serve()
 asio::awaitable<error_code> serial_line::listen_until(time_point deadline)
 {
     idle_ = true;
-    const auto size = co_await read_before(deadline, connection_.port, connection_.guard, asio::buffer(received_));
+    const auto size = co_await connection_->read(deadline, asio::buffer(received_));
     idle_ = false;
     if (size)
         line_free_from_ = std::max(line_free_from_, now() + gap_);
@@ -79,12 +79,12 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
         error_code ec;
         if (const auto* to_send = std::get_if<modbus::serial_transaction::send>(&action)) {
             const time_point started = now();
-            ec = co_await connection_.write(to_send->adu);
+            ec = co_await connection_->write(to_send->adu);
             transaction.sent(started);
         }
         else {
             const time_point until = std::get<modbus::serial_transaction::wait>(action).until;
-            const auto size = co_await read_before(until, connection_.port, connection_.guard, asio::buffer(received_));
+            const auto size = co_await connection_->read(until, asio::buffer(received_));
             if (size)
                 transaction.feed(now(), bytes(received_).first(*size));
             else if (size.error() != asio::error::timed_out)

@@ -1,9 +1,9 @@
-// Drives one serial line as MODBUS RTU client: asks what the line's routes and others want.
+// Drives one serial line, RTU or ASCII, as MODBUS client: asks what the line's routes and others want.
 #pragma once
 
 #include "bridge/routes/modbus_line.hpp"
+#include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
-#include "daemon/serial_connection.hpp"
 
 #include <array>
 #include <functional>
@@ -26,7 +26,7 @@ private:
     line_config config_;
     modbus_line& routes_;
     std::function<void()> settle_;
-    serial_connection connection_;
+    std::unique_ptr<line_connection> connection_;
     std::array<std::uint8_t, 1024> received_{};
     duration gap_;
     time_point line_free_from_{};

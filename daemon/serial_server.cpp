@@ -1,7 +1,5 @@
 #include "daemon/serial_server.hpp"
 
-#include "protocols/modbus/rtu.hpp"
-
 namespace plcgw {
 namespace {
 
@@ -16,24 +14,39 @@ std::vector<modbus::unit_id> units_of(const std::vector<modbus_station>& station
     return units;
 }
 
+// Each station has its own, which its client may change; frames are told apart by all of them.
+buffer delimiters_of(std::vector<modbus_station>& stations)
+{
+    buffer all;
+    for (modbus_station& each : stations)
+        all.push_back(each.delimiter());
+    return all;
+}
+
 }  // namespace
 
 serial_server::serial_server(asio::io_context& loop, line_config config, std::vector<modbus_station> stations,
                              std::function<void()> settle)
     : config_(std::move(config)), stations_(std::move(stations)), settle_(std::move(settle)),
-      connection_(loop, config_), in_(units_of(stations_), config_.silence), gap_(loop)
+      connection_(make_connection(loop, config_)), echo_(config_.echo), in_(make_framer()), gap_(loop)
 {
+}
+
+modbus::bus_framer serial_server::make_framer() const
+{
+    return {framing_of(config_), units_of(stations_), config_.silence};
 }
 
 asio::awaitable<void> serial_server::run()
 {
     for (;;) {
-        const bool is_open = co_await connection_.open();
+        const bool is_open = co_await connection_->open();
         if (!is_open)
             continue;
-        in_ = modbus::rtu_bus_framer(units_of(stations_), config_.silence);
+        in_ = make_framer();
+        echo_ = echo_filter(config_.echo);
         const error_code ec = co_await serve();
-        connection_.close(ec);
+        connection_->close(ec);
     }
 }
 
@@ -41,12 +54,16 @@ asio::awaitable<error_code> serial_server::serve()
 {
     for (;;) {
         const time_point until = in_.deadline();
-        const auto size = co_await read_before(until, connection_.port, connection_.guard, asio::buffer(received_));
+        const auto size = co_await connection_->read(until, asio::buffer(received_));
         if (size)
-            in_.feed(now(), bytes(received_).first(*size));
+            in_.feed(now(), echo_.feed(bytes(received_).first(*size)));
         else if (size.error() != asio::error::timed_out)
             co_return size.error();
-        while (auto event = in_.next(now())) {
+        for (;;) {
+            in_.set_delimiters(delimiters_of(stations_));
+            auto event = in_.next(now());
+            if (!event)
+                break;
             const error_code ec = co_await take(std::move(*event));
             if (ec)
                 co_return ec;
@@ -57,15 +74,21 @@ asio::awaitable<error_code> serial_server::serve()
 
 asio::awaitable<error_code> serial_server::take(bus_event event)
 {
+    const bool ascii = framing_of(config_) == modbus::framing::ascii;
+    const auto is_end_of_frame = [&](modbus_station& at) { return !ascii || at.delimiter() == in_.delimiter(); };
     for (modbus_station& each : stations_) {
         if (event.what == bus_event::kind::dropped)
             each.bus_error(event.why);
-        else
+        else if (is_end_of_frame(each))
             each.bus_message();
+        else
+            each.bus_error(errc::bad_character);
     }
     if (event.what != bus_event::kind::question)
         co_return error_code{};
     for (modbus_station& each : stations_) {
+        if (!is_end_of_frame(each))
+            continue;
         std::optional<buffer> pdu = each.answer(event.content);
         if (!pdu)
             continue;
@@ -82,8 +105,11 @@ asio::awaitable<error_code> serial_server::reply(modbus_station& station, buffer
     const duration gap = std::max<duration>(config_.gap, frame_gap(format_of(config_)));
     gap_.expires_at(in_.heard() + gap);
     co_await gap_.async_wait(no_throw);
-    const buffer adu = modbus::encode_rtu({station.unit(), std::move(pdu)});
-    const error_code ec = co_await connection_.write(adu);
+    const bool like_request = modbus::parse_request(pdu).has_value();
+    const modbus::frame content{station.unit(), std::move(pdu)};
+    const buffer adu = modbus::encode_adu(framing_of(config_), content, station.delimiter());
+    echo_.sent(adu, like_request);
+    const error_code ec = co_await connection_->write(adu);
     if (!ec)
         station.sent();
     co_return ec;

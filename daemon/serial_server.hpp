@@ -1,10 +1,12 @@
-// A serial line on which we are server: stations of ours, each with its PLC, among the stations of others.
+// A serial line, RTU or ASCII, on which we are server: stations of ours, each with its PLC, among the stations of
+// others.
 #pragma once
 
 #include "bridge/services/modbus_station.hpp"
+#include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
-#include "daemon/serial_connection.hpp"
-#include "protocols/modbus/rtu_bus.hpp"
+#include "protocols/echo_filter.hpp"
+#include "protocols/modbus/bus_framer.hpp"
 
 #include <array>
 #include <functional>
@@ -21,6 +23,7 @@ public:
     void wake() override {}
 
 private:
+    modbus::bus_framer make_framer() const;
     asio::awaitable<boost::system::error_code> serve();  // until the port fails
     asio::awaitable<boost::system::error_code> take(modbus::bus_event event);
     asio::awaitable<boost::system::error_code> reply(modbus_station& station, buffer pdu);
@@ -28,8 +31,9 @@ private:
     line_config config_;
     std::vector<modbus_station> stations_;
     std::function<void()> settle_;
-    serial_connection connection_;
-    modbus::rtu_bus_framer in_;
+    std::unique_ptr<line_connection> connection_;
+    echo_filter echo_;
+    modbus::bus_framer in_;
     asio::steady_timer gap_;
     std::array<std::uint8_t, 1024> received_{};
 };

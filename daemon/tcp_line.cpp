@@ -1,63 +1,37 @@
 #include "daemon/tcp_line.hpp"
 
-#include "daemon/log.hpp"
-#include "daemon/tcp_connect.hpp"
-
-#include <boost/asio/write.hpp>
-
 #include <algorithm>
 
 namespace plcgw {
-namespace {
 
 using boost::system::error_code;
 
-constexpr milliseconds first_pause{200};
-constexpr milliseconds last_pause{10'000};
-constexpr milliseconds connect_timeout{5'000};
-constexpr milliseconds write_timeout{5'000};  // a server that takes nothing for so long is gone
-
-}  // namespace
-
 tcp_line::tcp_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle)
-    : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), socket_(loop), guard_(socket_),
-      reconnect_(loop)
+    : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), connection_(loop, config_)
 {
 }
 
 asio::awaitable<void> tcp_line::run()
 {
     routes_.start(now());
-    milliseconds pause = first_pause;
-    for (bool said = false;;) {
-        const time_point deadline = now() + connect_timeout;
-        error_code ec = co_await connect_before(deadline, socket_, guard_, config_.host, config_.port);
-        if (!ec) {
-            log::info("line {}: connected to {}:{}", config_.name, config_.host, config_.port);
-            said = false;
-            pause = first_pause;
+    for (;;) {
+        const bool is_open = co_await connection_.open();
+        if (is_open) {
             in_ = {};
             routes_.port_opened();
-            ec = co_await serve();
+            const error_code ec = co_await serve();
             give_up_all();
+            connection_.close(ec);
         }
-        error_code ignored;
-        socket_.close(ignored);
-        if (!std::exchange(said, true))
-            log::warning("line {}: no connection to {}:{} ({}): it is tried again until there is one", config_.name,
-                         config_.host, config_.port, ec.message());
-        routes_.port_lost("no connection");
+        routes_.port_lost(connection_.absence());
         settle_();
-        reconnect_.expires_after(pause);
-        co_await reconnect_.async_wait(no_throw);
-        pause = std::min(2 * pause, last_pause);
     }
 }
 
 void tcp_line::wake()
 {
     if (idle_)
-        guard_.interrupt();
+        connection_.interrupt();
 }
 
 asio::awaitable<error_code> tcp_line::serve()
@@ -67,9 +41,7 @@ asio::awaitable<error_code> tcp_line::serve()
         ask_again_or_fail(out);
         ask_what_is_due(out);
         if (!out.empty()) {
-            guard_.arm(now() + write_timeout);
-            const auto [ec, sent] = co_await asio::async_write(socket_, asio::buffer(out), no_throw);
-            guard_.disarm();
+            const error_code ec = co_await connection_.write(out);
             if (ec)
                 co_return ec;
         }
@@ -86,7 +58,7 @@ asio::awaitable<error_code> tcp_line::listen()
     const time_point due = may_ask ? routes_.wake_at(now()) : time_point::max();
     const time_point until = std::min(due, open_.deadline());
     idle_ = may_ask;
-    const auto size = co_await read_before(until, socket_, guard_, asio::buffer(received_));
+    const auto size = co_await connection_.read(until, asio::buffer(received_));
     idle_ = false;
     if (!size && size.error() != asio::error::timed_out)
         co_return size.error();

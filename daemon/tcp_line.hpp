@@ -3,13 +3,9 @@
 #pragma once
 
 #include "bridge/routes/modbus_line.hpp"
-#include "daemon/config/config.hpp"
 #include "daemon/line_driver.hpp"
-#include "daemon/read_before.hpp"
+#include "daemon/tcp_connection.hpp"
 #include "protocols/modbus/tcp_questions.hpp"
-
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 
 #include <array>
 #include <functional>
@@ -44,9 +40,7 @@ private:
     line_config config_;
     modbus_line& routes_;
     std::function<void()> settle_;
-    asio::ip::tcp::socket socket_;
-    deadline_guard<asio::ip::tcp::socket> guard_;
-    asio::steady_timer reconnect_;
+    tcp_connection connection_;
     modbus::mbap_framer in_;
     modbus::tcp_questions open_;
     std::map<key, under_way> questions_;

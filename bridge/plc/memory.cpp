@@ -15,6 +15,21 @@ void append(std::vector<change>& changes, const change& next)
         changes.push_back(next);
 }
 
+// The bits of an area's register that belong to devices. Bit devices may end inside their last one (an FX3S's Y0-Y15)
+// or begin inside their first (its CS200); there is nothing in the others that could be on.
+unsigned devices_in(const area& a, std::size_t index)
+{
+    unsigned bits = 0xFFFF;
+    if (a.bits_per_device != 1)
+        return bits;
+    const std::size_t begin = 16 * index;
+    if (begin < a.absent)
+        bits &= 0xFFFFU << (a.absent - begin);
+    if (a.count < begin + 16)
+        bits &= 0xFFFFU >> (begin + 16 - a.count);
+    return bits;
+}
+
 }  // namespace
 
 bool overlaps(const change& changed, place first, std::size_t bits)
@@ -73,17 +88,18 @@ void memory::set_bit(place p, bool value)
 {
     image& of = images_[p.area];
     const std::uint16_t before = of.registers[p.bit / 16];
-    const auto mask = static_cast<std::uint16_t>(1U << (p.bit % 16));
+    const unsigned mask = 1U << (p.bit % 16) & devices_in(model_->areas[p.area], p.bit / 16);
     store(of, p.bit / 16, static_cast<std::uint16_t>(value ? before | mask : before & ~mask));
 }
 
 void memory::set_word(place p, std::uint16_t value)
 {
     image& of = images_[p.area];
+    const area& a = model_->areas[p.area];
     const std::size_t index = p.bit / 16;
     const std::size_t shift = p.bit % 16;
-    const std::uint32_t mask = 0xFFFFU << shift;
-    const std::uint32_t moved = std::uint32_t{value} << shift;
+    const std::uint32_t mask = 0xFFFFU << shift & (devices_in(a, index) | devices_in(a, index + 1) << 16);
+    const std::uint32_t moved = std::uint32_t{value} << shift & mask;
     store(of, index, static_cast<std::uint16_t>((of.registers[index] & ~mask) | (moved & 0xFFFF)));
     if (shift != 0)
         store(of, index + 1, static_cast<std::uint16_t>((of.registers[index + 1] & ~(mask >> 16)) | moved >> 16));

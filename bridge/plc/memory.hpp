@@ -44,7 +44,7 @@ public:
     std::uint16_t word(place p) const;
     void read(place p, std::span<std::uint16_t> words) const;
     void set_bit(place p, bool value);
-    void set_word(place p, std::uint16_t value);
+    void set_word(place p, std::uint16_t value);  // bits of no device stay 0
 
     std::vector<change> take_changes();  // since the last call, in the order of areas and numbers
     bool has_changes() const { return changed_; }

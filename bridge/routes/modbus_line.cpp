@@ -69,6 +69,8 @@ std::optional<modbus_line::question> modbus_line::next(time_point now)
     if (!chosen)
         chosen = next_forward(now);
     forwarded_last_ = chosen && std::holds_alternative<forward_ticket>(chosen->origin);
+    if (chosen)
+        chosen->timing.delimiter = delimiter_of(chosen->unit);
     return chosen;
 }
 
@@ -85,6 +87,26 @@ std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
         return question{first.ticket, first.unit, std::move(first.request), timing, now};
     }
     return std::nullopt;
+}
+
+std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit) const
+{
+    const auto told = delimiters_.find(unit);
+    return told != delimiters_.end() && told->second.in_force ? told->second.character : modbus::ascii_delimiter;
+}
+
+void modbus_line::learn_delimiter(const question& q, const modbus::response& answer)
+{
+    const auto* const asked = std::get_if<modbus::diagnostics>(&q.request);
+    if (asked != nullptr && asked->what == modbus::diagnostic::change_ascii_delimiter && !asked->data.empty() &&
+        std::holds_alternative<modbus::diagnostics_answered>(answer))
+        delimiters_[q.unit] = {asked->data[0]};
+}
+
+void modbus_line::doubt_delimiter(modbus::unit_id unit)
+{
+    if (const auto told = delimiters_.find(unit); told != delimiters_.end())
+        told->second.in_force = !told->second.in_force;
 }
 
 const station* modbus_line::find(modbus::unit_id unit) const
@@ -110,6 +132,7 @@ std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
 void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
                            unanswered_requests late)
 {
+    learn_delimiter(q, answer);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
         forwards_.answer(*forwarded, answer);
         return;
@@ -138,6 +161,7 @@ void modbus_line::answered(const question& q, const modbus::response& answer, ti
 
 void modbus_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
 {
+    doubt_delimiter(q.unit);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
         forwards_.answer(*forwarded, why);
         return;

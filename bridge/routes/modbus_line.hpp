@@ -6,6 +6,8 @@
 #include "bridge/routes/schedule.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
+#include <map>
+
 namespace plcgw {
 
 struct station {
@@ -85,6 +87,9 @@ private:
     std::optional<question> next_poll(time_point now);
     std::optional<question> next_forward(time_point now);
     const station* find(modbus::unit_id unit) const;
+    std::uint8_t delimiter_of(modbus::unit_id unit) const;
+    void learn_delimiter(const question& q, const modbus::response& answer);
+    void doubt_delimiter(modbus::unit_id unit);
     void lose(row& of, const std::string& why);
     void age(row& of, time_point now);
     void station_down(std::size_t index, const std::string& reason);
@@ -99,6 +104,13 @@ private:
     bool forwarded_last_ = false;
     bool port_open_ = false;
     modbus::serial_options timing_;
+    // ASCII: stations that were told to end their frames with another character. They forget it when their power fails,
+    // so that one that does not answer is asked in both ways by turns.
+    struct told_delimiter {
+        std::uint8_t character;
+        bool in_force = true;
+    };
+    std::map<modbus::unit_id, told_delimiter> delimiters_;
     duration longest_silence_;
     std::vector<line_event> events_;
 };

@@ -48,13 +48,13 @@ struct unit_config {
     unsigned channel = 1;    // of the PLC, on a serial line: whose special devices show the communication
 };
 
-enum class line_protocol : std::uint8_t { modbus_rtu, modbus_tcp };
+enum class line_protocol : std::uint8_t { modbus_rtu, modbus_ascii, modbus_tcp };
 enum class line_role : std::uint8_t { client, server };
 
 struct line_config {
     std::string name;
-    std::string device;  // of a serial line
-    std::string host;    // of a TCP connection
+    std::string device;  // serial port, or else
+    std::string host;    // MODBUS TCP server, or device server behind which the serial line is
     unsigned port = 502;
     line_protocol protocol = line_protocol::modbus_rtu;
     line_role role = line_role::client;

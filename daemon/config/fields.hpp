@@ -30,6 +30,7 @@ struct choice {
 };
 
 inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu},
+                                                           {"modbus-ascii", line_protocol::modbus_ascii},
                                                            {"modbus-tcp", line_protocol::modbus_tcp}};
 inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
 inline constexpr choice<local_echo> local_echoes[] = {
@@ -91,14 +92,18 @@ void describe(Visitor& v, line_config& c)
 {
     v.required("name", c.name, "Name of the line", name_rule);
     v.optional("device", c.device, "Serial port, best a stable name such as /dev/serial/by-id/...", text{});
-    v.optional("host", c.host, "Host name or address instead of a serial port, for modbus-tcp", text{});
+    v.optional("host", c.host,
+               "Host instead of a serial port: a MODBUS TCP server, or a device server that passes on RTU or ASCII",
+               text{});
     v.optional("port", c.port, "TCP port of the host", range{1, 65'535});
-    v.optional("protocol", c.protocol, "What is spoken on the line", line_protocols);
+    v.optional("protocol", c.protocol,
+               "What is spoken on the line; with a host, modbus-rtu and modbus-ascii mean RTU or ASCII over TCP",
+               line_protocols);
     v.optional("role", c.role, "client: the gateway asks the stations; server: it answers, for the units below",
                line_roles);
     v.optional("units", c.units, "Of a server line: which unit id leads to which PLC");
     v.optional("baud_rate", c.baud_rate, "Bits per second", range{300, 4'000'000});
-    v.optional("data_bits", c.data_bits, "Data bits; RTU needs 8", range{7, 8});
+    v.optional("data_bits", c.data_bits, "Data bits; RTU needs 8, ASCII takes 7 or 8", range{7, 8});
     v.optional("parity", c.check, "Parity bit", parities);
     v.optional("stop_bits", c.stop_bits, "Stop bits", range{1, 2});
     v.optional("rs485", c.rs485, "RS-485 direction control by the driver");

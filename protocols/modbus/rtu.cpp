@@ -87,4 +87,13 @@ errc rtu_answer::failure() const
     return answers_us && (!whole || received_.size() < *whole + rtu_overhead) ? errc::incomplete : errc::bad_checksum;
 }
 
+answer_fault rtu_answer::fault() const
+{
+    const errc why = failure();
+    if (why != errc::unexpected_answer)
+        return {why, {}};
+    const bytes pdu = bytes(received_).subspan(1, received_.size() - rtu_overhead);
+    return {why, frame{unit_id{received_[0]}, buffer(pdu.begin(), pdu.end())}};
+}
+
 }  // namespace plcgw::modbus

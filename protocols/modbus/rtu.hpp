@@ -1,10 +1,7 @@
 // RTU framing, MODBUS over Serial Line V1.02 section 2.5.1: unit, PDU, CRC.
 #pragma once
 
-#include "protocols/errc.hpp"
-#include "protocols/modbus/response.hpp"
-
-#include <optional>
+#include "protocols/modbus/answer_fault.hpp"
 
 namespace plcgw::modbus {
 
@@ -32,9 +29,10 @@ public:
     bool whole() const;
 
     // Why there was no answer in the bytes so far, to be asked when the line fell silent.
-    errc failure() const;
+    answer_fault fault() const;
 
 private:
+    errc failure() const;
     std::optional<response> answer_at(std::size_t start) const;
 
     unit_id unit_;

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 namespace plcgw::modbus {
-
 serial_transaction::serial_transaction(unit_id unit, request question, const serial_options& timing,
                                        time_point line_free_from, time_point now)
-    : unit_(unit), question_(std::move(question)), timing_(timing), adu_(encode_rtu({unit, encode_request(question_)})),
+    : unit_(unit), question_(std::move(question)), timing_(timing),
+      adu_(encode_adu(timing.mode, {unit, encode_request(question_)}, timing.delimiter)),
       line_free_from_(line_free_from), give_up_(std::max(now, line_free_from) + timing.response_timeout)
 {
 }
@@ -18,9 +18,14 @@ duration serial_transaction::gap() const { return std::max(timing_.gap, frame_ga
 time_point serial_transaction::silence_ends() const
 {
     const time_point timeout = sent_until_ + timing_.response_timeout;
-    const time_point longest = timeout + character_time(timing_.format, max_rtu_size);
-    const time_point silent = std::min(heard_, longest) + timing_.silence;
-    return answer_->begun() ? silent : std::max(silent, timeout);
+    const auto* const ascii = std::get_if<ascii_answer>(&*answer_);
+    const time_point longest =
+        timeout + character_time(timing_.format, ascii != nullptr ? max_ascii_size : max_rtu_size);
+    const bool in_frame = ascii != nullptr && ascii->inside();
+    const time_point silent =
+        std::min(heard_, longest) + (in_frame ? std::max(timing_.silence, ascii_max_silence) : timing_.silence);
+    const bool begun = std::visit([](const auto& in) { return in.begun(); }, *answer_);
+    return begun ? silent : std::max(silent, timeout);
 }
 
 serial_transaction::action serial_transaction::next(time_point now)
@@ -41,13 +46,13 @@ serial_transaction::action serial_transaction::next(time_point now)
     case state::wait_for_answer:
         if (now < sent_until_ + timing_.response_timeout)
             return wait{sent_until_ + timing_.response_timeout};
-        fail_attempt(now, errc::timed_out);
+        fail_attempt(now, {errc::timed_out, {}});
         return next(now);
 
     case state::wait_for_silence:
         if (now < silence_ends())
             return wait{silence_ends()};
-        fail_attempt(now, answer_->failure());
+        fail_attempt(now, std::visit([](const auto& in) { return in.fault(); }, *answer_));
         return next(now);
 
     case state::finished: break;
@@ -64,11 +69,19 @@ void serial_transaction::sent(time_point now)
         finish(response{no_response{}});
         return;
     }
-    answer_.emplace(unit_, question_);
+    expect_answer();
     echo_.clear();
     awaits_echo_ =
         timing_.echo == local_echo::on || (timing_.echo == local_echo::automatic && !echoes_request(question_));
     state_ = state::wait_for_answer;
+}
+
+void serial_transaction::expect_answer()
+{
+    if (timing_.mode == framing::ascii)
+        answer_.emplace(std::in_place_type<ascii_answer>, unit_, question_, timing_.delimiter);
+    else
+        answer_.emplace(std::in_place_type<rtu_answer>, unit_, question_);
 }
 
 void serial_transaction::feed(time_point now, bytes received)
@@ -84,7 +97,7 @@ void serial_transaction::feed(time_point now, bytes received)
     received = without_echo(received);
     if (received.empty())
         return;
-    if (auto answer = answer_->feed(received))
+    if (auto answer = std::visit([&](auto& in) { return in.feed(received); }, *answer_))
         answered(now, std::move(*answer));
     else
         state_ = state::wait_for_silence;
@@ -112,9 +125,12 @@ void serial_transaction::answered(time_point now, response answer)
     finish(std::move(answer));
 }
 
-void serial_transaction::fail_attempt(time_point now, errc reason)
+void serial_transaction::fail_attempt(time_point now, answer_fault why)
 {
-    if (!answer_->whole() && unanswered_++ == 0)
+    const errc reason = why.why;
+    faults_.push_back(std::move(why));
+    const bool whole = std::visit([](const auto& in) { return in.whole(); }, *answer_);
+    if (!whole && unanswered_++ == 0)
         unanswered_since_ = sent_until_;
     line_free_from_ = std::max(heard_ + gap(), now);
     if (attempts_ > timing_.retries) {

@@ -1,7 +1,10 @@
-// One question to one station of an RTU line, with its retries, as a state machine: whoever drives the line does what
-// next() says. MODBUS over Serial Line V1.02 section 2.4.1 (client state diagram); FX3 manual 6.1 D8409-D8412.
+// One question to one station of a serial line, RTU or ASCII, with its retries, as a state machine: whoever drives the
+// line does what next() says. MODBUS over Serial Line V1.02 section 2.4.1 (client state diagram); FX3 manual 6.1
+// D8409-D8412.
 #pragma once
 
+#include "protocols/modbus/ascii.hpp"
+#include "protocols/modbus/framing.hpp"
 #include "protocols/modbus/rtu.hpp"
 #include "protocols/serial_timing.hpp"
 
@@ -17,6 +20,8 @@ struct serial_options {
     duration gap{};                      // silence before a request; at least 3.5 characters
     duration silence{20'000};            // ends a damaged answer; longer than the delays of a USB adapter
     local_echo echo = local_echo::automatic;
+    framing mode = framing::rtu;
+    std::uint8_t delimiter = ascii_delimiter;  // of the station that is asked
 };
 
 class serial_transaction {
@@ -47,14 +52,16 @@ public:
     // Attempts to which no answer came, and the end of the first of them. Their answers may still come.
     unsigned unanswered() const { return unanswered_; }
     time_point unanswered_since() const { return unanswered_since_; }
-    std::size_t stray_bytes() const { return stray_bytes_; }  // heard while nobody was asked
+    const std::vector<answer_fault>& faults() const { return faults_; }  // of each attempt that failed
+    std::size_t stray_bytes() const { return stray_bytes_; }             // heard while nobody was asked
     bool echo_seen() const { return echo_seen_; }
     time_point line_free_from() const { return line_free_from_; }
 
 private:
     enum class state { wait_for_line, sending, wait_for_answer, wait_for_silence, finished };
 
-    void fail_attempt(time_point now, errc reason);
+    void expect_answer();
+    void fail_attempt(time_point now, answer_fault why);
     void finish(result<response> outcome);
     void answered(time_point now, response answer);
     duration gap() const;
@@ -65,7 +72,8 @@ private:
     request question_;
     serial_options timing_;
     buffer adu_;
-    std::optional<rtu_answer> answer_;
+    std::optional<std::variant<rtu_answer, ascii_answer>> answer_;
+    std::vector<answer_fault> faults_;
     state state_ = state::wait_for_line;
     time_point line_free_from_;
     time_point give_up_;       // when a line that never falls silent is reported

@@ -309,4 +309,30 @@ TEST_CASE("adprw table: FX3S, FX3G and FX3GC ask the eight basic commands; an FX
     CHECK(tried("ADPRW H1 H3 H0 K1 D3000", {}, "FX3S") == refusal{5, out_of_range});
 }
 
+TEST_CASE("adprw table: the last device of each model, and the one behind it")
+{
+    struct {
+        const char* model;
+        const char* last;
+        const char* behind;
+    } const rows[] = {
+        {"FX3S", "D2999", "D3000"},    {"FX3S", "M1535", "M1536"}, {"FX3S", "S255", "S256"},
+        {"FX3S", "Y15", "Y16"},        {"FX3S", "X17", "X20"},     {"FX3G", "R23999", "R24000"},
+        {"FX3G", "Y177", "Y200"},      {"FX3GC", "X177", "X200"},  {"FX3GC", "D7999", "D8000"},
+        {"FX3UC", "R32767", "R32768"}, {"FX3UC", "Y377", "Y400"},  {"LS22", "M3071", "M3072"},
+        {"LS32", "S999", "S1000"},     {"LS22", "Y267", "Y270"},
+    };
+    for (const auto& row : rows) {
+        CAPTURE(row.model);
+        CAPTURE(row.last);
+        const bool ls = std::string(row.model).starts_with("LS");
+        const bool bits = allows("XYMS", row.last[0]);
+        const std::string line = bits ? "ADPRW K1 HF H0 K1 " : "ADPRW K1 H3 H0 K1 ";
+        CHECK(tried(line + row.last, {}, row.model) == refusal{});
+        const bool special = std::string(row.behind) == "D8000";
+        CHECK(tried(line + row.behind, {}, row.model) ==
+              (ls ? refusal{5} : refusal{5, special ? wrong_device : out_of_range}));
+    }
+}
+
 TEST_SUITE_END();

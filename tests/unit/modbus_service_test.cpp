@@ -176,4 +176,38 @@ TEST_CASE("modbus service: the user-defined map is what coils and holding regist
     CHECK(serve_pdu(plc, buffer{0x04, 0x03, 0xE8, 0x00, 0x01}) == buffer{0x04, 0x02, 0x00, 0x2A});
 }
 
+TEST_CASE("modbus service: the allocation is read at power-on, what is written to D8470 later changes no map (9.4)")
+{
+    auto program = plc::parse_setup_program("LD M8411\nMOV HC001 D8470\nMOV K1000 D8471\n");
+    plc::simulated_plc plc("main", plc::fx3u, std::move(program));
+    const auto at = [&](const char* device) { return plc.memory().find(*parse_device(device)).value(); };
+    plc.memory().set_word(at("D8470"), 0xD001);  // R, by a program or a monitor
+    plc.memory().set_word(at("D8471"), 0);
+    plc.memory().set_word(at("R0"), 0x1111);
+    plc.memory().set_word(at("D1000"), 0x2222);
+    CHECK(serve_pdu(plc, buffer{0x03, 0x00, 0x00, 0x00, 0x01}) == buffer{0x03, 0x02, 0x22, 0x22});
+    plc.stop();
+    plc.run();
+    CHECK(serve_pdu(plc, buffer{0x03, 0x00, 0x00, 0x00, 0x01}) == buffer{0x03, 0x02, 0x22, 0x22});
+    plc.power_cycle();
+    CHECK(plc.memory().word(at("D8470")) == 0xC001);  // what the program says
+    plc.memory().set_word(at("D1000"), 0x3333);
+    CHECK(serve_pdu(plc, buffer{0x03, 0x00, 0x00, 0x00, 0x01}) == buffer{0x03, 0x02, 0x33, 0x33});
+}
+
+TEST_CASE("modbus service: only FX3U and FX3UC have an allocation, in the others the default map stays (9.4)")
+{
+    for (const plc::model* m : plc::all_models()) {
+        CAPTURE(std::string(m->name));
+        auto program = plc::parse_setup_program("LD M8411\nMOV HC001 D8470\nMOV K1000 D8471\n");
+        plc::simulated_plc plc("main", *m, std::move(program));
+        plc.memory().set_word(plc.memory().find(*parse_device("D1000")).value(), 0x1234);
+        const bool allocated = m->name.starts_with("FX3U");
+        CHECK(serve_pdu(plc, buffer{0x03, 0x00, 0x00, 0x00, 0x01})[2] == (allocated ? 0x12 : 0));
+        CHECK(serve_pdu(plc, buffer{0x03, 0x03, 0xE8, 0x00, 0x01}) ==
+              (allocated ? buffer{0x83, 0x02} : buffer{0x03, 0x02, 0x12, 0x34}));
+        CHECK_FALSE(plc.fault().has_value());
+    }
+}
+
 TEST_SUITE_END();

@@ -45,7 +45,7 @@ errc failure_of(const answer_row& row, bytes received)
 {
     rtu_answer collected(row.unit, row.question);
     CHECK_FALSE(collected.feed(received));
-    return collected.failure();
+    return collected.fault().why;
 }
 
 buffer flipped(buffer adu, std::size_t bit)

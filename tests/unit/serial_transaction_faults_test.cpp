@@ -60,7 +60,8 @@ TEST_CASE("serial transaction: a line that never falls silent is reported and no
     CHECK(t.line_free_from() == now + gap);
 }
 
-TEST_CASE("serial transaction: a damaged answer fails after the silence, not after the response timeout, and is retried")
+TEST_CASE(
+    "serial transaction: a damaged answer fails after the silence, not after the response timeout, and is retried")
 {
     serial_transaction t(unit, question, timing, t0, t0);
     REQUIRE(sends(t, t0, asked));

@@ -39,6 +39,17 @@ TEST_CASE("station: an error shows in the diagnostic register of its own channel
     CHECK_FALSE(two.bit("M8063"));
 }
 
+TEST_CASE("station: clearing the counters leaves the error flags in the diagnostic register (7.11.6)")
+{
+    station_bench b;
+    b.ask(test::bad_function);
+    CHECK(b.ask(test::clear_counters) == test::clear_counters);
+    CHECK(b.ask({0x08, 0x00, 0x02, 0x00, 0x00}) == buffer{0x08, 0x00, 0x02, 0x00, 0x08});
+    CHECK(b.word("D8402") == 209);
+    b.set_bit("M8063", false);  // the program, or a monitoring device
+    CHECK(b.ask({0x08, 0x00, 0x02, 0x00, 0x00}) == buffer{0x08, 0x00, 0x02, 0x00, 0x00});
+}
+
 TEST_CASE("station: a new delimiter is in force when the response has left, and stays until power-on")
 {
     for (const unsigned channel : {1U, 2U}) {

@@ -1,6 +1,8 @@
 // The communication event log, byte by byte: FX3 manual 9.5, V1.1b3 section 6.10.
 #include "tests/unit/station_bench.hpp"
 
+#include <algorithm>
+
 TEST_SUITE_BEGIN("services");
 
 using namespace plcgw;
@@ -180,6 +182,50 @@ TEST_CASE("station: a full log is 64 events in the response")
     CHECK(buffer(reply->begin(), reply->begin() + 10) ==
           buffer{0x0C, 0x46, 0x00, 0x00, 0x00, 0x64, 0x00, 0x65, 0x80, 0x40});
     CHECK(reply->back() == 0x40);
+}
+
+TEST_CASE("station: of more than 64 events the oldest go, byte for byte in function 0C and in D110-D142 (9.5.1)")
+{
+    station_bench b(std::string(test::server_1) + "H11 D8415, K100 D8416");
+    buffer newest_first;
+    const auto logged = [&](std::initializer_list<std::uint8_t> events) {
+        for (const std::uint8_t each : events)
+            newest_first.insert(newest_first.begin(), each);
+    };
+    for (unsigned i = 0; i < 120; ++i) {  // no run of 64 looks like another
+        if (i % 7 == 0) {
+            b.station.bus_error(errc::bad_checksum);
+            logged({0x82});
+        }
+        if (i % 11 == 0) {
+            b.station.bus_error(errc::overlong);
+            logged({0x90});
+        }
+        if (i % 13 == 0) {
+            b.tell_all({0x06, 0x00, 0x00, 0x00, 0x01});
+            logged({0xC0});
+        }
+        if (i % 5 == 0) {
+            b.ask(test::bad_function);
+            logged({0x80, 0x41});
+        }
+        const buffer shown(newest_first.begin(),
+                           newest_first.begin() +
+                               static_cast<std::ptrdiff_t>(std::min<std::size_t>(64, newest_first.size())));
+        REQUIRE(b.log() == shown);
+        REQUIRE(b.word("D110") == shown.size());
+        for (std::size_t event = 0; event < shown.size(); ++event) {
+            const std::uint16_t word = b.word(("D" + std::to_string(111 + event / 2)).c_str());
+            REQUIRE((event % 2 == 0 ? word & 0xFF : word >> 8) == shown[event]);
+        }
+    }
+    REQUIRE(newest_first.size() > 64);
+    const auto reply = b.ask({0x0C});
+    logged({0x80});  // function 0C itself, and the oldest of the 64 is gone
+    REQUIRE(reply.has_value());
+    REQUIRE(reply->size() == 8 + 64);
+    CHECK((*reply)[1] == 6 + 64);
+    CHECK(buffer(reply->begin() + 8, reply->end()) == buffer(newest_first.begin(), newest_first.begin() + 64));
 }
 
 TEST_SUITE_END();

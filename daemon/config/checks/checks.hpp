@@ -1,0 +1,38 @@
+// The checks, one function for each list of the configuration.
+#pragma once
+
+#include "bridge/plc/memory.hpp"
+#include "daemon/config/checks/context.hpp"
+
+#include <map>
+
+namespace plcgw::config {
+
+void check_plcs(check_context& c);
+void check_lines(check_context& c);
+void check_stations(check_context& c);
+void check_routes(check_context& c);
+void check_servers(check_context& c);
+void check_dds(check_context& c);
+
+// Unit ids of a server and where they lead. list: "/modbus_tcp/0/units".
+void check_units(check_context& c, const std::string& list, const std::vector<unit_config>& units);
+
+// A line on which somebody can be asked.
+void check_client_line(check_context& c, const std::string& name, const std::string& at);
+
+// Devices that a row takes in the memory of a PLC.
+class device_check {
+public:
+    explicit device_check(check_context& c) : c_(c) {}
+
+    // row: with the keys "plc" and "device". Their place, or nothing and a complaint.
+    std::optional<plc::place> place_of(const std::string& row, const std::string& plc, const std::string& device,
+                                       std::size_t bits);
+
+private:
+    check_context& c_;
+    std::map<const plc::model*, plc::memory> memories_;  // large: one for each model
+};
+
+}  // namespace plcgw::config

@@ -1,0 +1,25 @@
+#include "daemon/line_connection.hpp"
+
+#include "daemon/serial_connection.hpp"
+#include "daemon/tcp_connection.hpp"
+
+namespace plcgw {
+
+std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const line_config& line)
+{
+    if (line.device.empty())
+        return std::make_unique<tcp_connection>(loop, line);
+    return std::make_unique<serial_connection>(loop, line);
+}
+
+character_format format_of(const line_config& line)
+{
+    return {line.baud_rate, line.data_bits, line.check, line.stop_bits};
+}
+
+modbus::framing framing_of(const line_config& line)
+{
+    return line.protocol == line_protocol::modbus_ascii ? modbus::framing::ascii : modbus::framing::rtu;
+}
+
+}  // namespace plcgw

@@ -1,0 +1,43 @@
+// What carries the bytes of a serial line: a port of this machine, or a serial device server at the other end of a TCP
+// connection. It is opened again when it comes back: absence is a normal state.
+#pragma once
+
+#include "daemon/config/config.hpp"
+#include "daemon/read_before.hpp"
+#include "protocols/bytes.hpp"
+#include "protocols/modbus/framing.hpp"
+
+#include <boost/asio/io_context.hpp>
+
+#include <memory>
+
+namespace plcgw {
+
+class line_connection {
+public:
+    virtual ~line_connection() = default;
+
+    // True when it is open now; false after a failed attempt and the pause behind it, so that the caller can say so.
+    virtual asio::awaitable<bool> open() = 0;
+    virtual void close(const boost::system::error_code& why) = 0;
+
+    // Fails with asio::error::timed_out when it takes far longer than the bytes need: driver or network hang.
+    virtual asio::awaitable<boost::system::error_code> write(bytes adu) = 0;
+
+    // At least a byte; asio::error::timed_out when the deadline came first, or interrupt().
+    virtual asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline,
+                                                                     asio::mutable_buffer into) = 0;
+    virtual void interrupt() = 0;
+
+    // For the quality of what came over it.
+    virtual std::string absence() const = 0;
+};
+
+// By whether the line has a device or a host.
+std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const line_config& line);
+
+// Of the serial line, also of that behind a device server.
+character_format format_of(const line_config& line);
+modbus::framing framing_of(const line_config& line);
+
+}  // namespace plcgw

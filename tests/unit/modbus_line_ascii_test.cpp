@@ -1,0 +1,56 @@
+// ASCII stations that were told to end their frames with another character (diagnostics 03).
+#include "tests/support/line_fixture.hpp"
+
+TEST_SUITE_BEGIN("routes");
+
+using namespace plcgw;
+using namespace plcgw::test;
+
+namespace {
+
+struct told_pump : line_fixture {
+    told_pump()
+    {
+        line.port_opened();
+        const auto q = ask({modbus::diagnostics{modbus::diagnostic::change_ascii_delimiter, {'$', 0}}});
+        answer(q, modbus::diagnostics_answered{{'$', 0}});
+    }
+    modbus_line::question ask(modbus::request what, modbus::unit_id unit = modbus::unit_id{5})
+    {
+        line.forward(unit, std::move(what));
+        return next();
+    }
+};
+
+const modbus::request reading = modbus::read_table{modbus::table::coils, modbus::address{0}, 1};
+
+}  // namespace
+
+TEST_CASE("modbus line: a station that was told its delimiter is spoken to with it, its neighbour is not")
+{
+    told_pump f;
+    CHECK(f.ask(reading).timing.delimiter == '$');
+    CHECK(f.ask(reading, modbus::unit_id{6}).timing.delimiter == '\n');
+}
+
+TEST_CASE("modbus line: a refused delimiter is not used")
+{
+    line_fixture f;
+    f.line.port_opened();
+    f.line.forward(modbus::unit_id{5}, modbus::diagnostics{modbus::diagnostic::change_ascii_delimiter, {'$', 0}});
+    f.answer(f.next(), modbus::exception_code::illegal_function);
+    f.line.forward(modbus::unit_id{5}, reading);
+    CHECK(f.next().timing.delimiter == '\n');
+}
+
+TEST_CASE("modbus line: a told station that falls silent is asked in both ways by turns, for its power may have failed")
+{
+    told_pump f;
+    f.fail(f.ask(reading));
+    const auto second = f.ask(reading);
+    CHECK(second.timing.delimiter == '\n');
+    f.answer(second, modbus::bits_read{{true}});
+    CHECK(f.ask(reading).timing.delimiter == '\n');
+}
+
+TEST_SUITE_END();
