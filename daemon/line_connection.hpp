@@ -29,6 +29,9 @@ public:
                                                                      asio::mutable_buffer into) = 0;
     virtual void interrupt() = 0;
 
+    // Characters that the port lost since it exists; nothing where that is not known.
+    virtual std::optional<std::uint64_t> overruns() { return std::nullopt; }
+
     // For the quality of what came over it.
     virtual std::string absence() const = 0;
 };
@@ -39,5 +42,6 @@ std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const l
 // Of the serial line, also of that behind a device server.
 character_format format_of(const line_config& line);
 modbus::framing framing_of(const line_config& line);
+local_echo echo_of(const line_config& line);
 
 }  // namespace plcgw

@@ -20,6 +20,7 @@ public:
     asio::awaitable<boost::system::error_code> write(bytes adu) override;
     asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline, asio::mutable_buffer into) override;
     void interrupt() override { guard_.interrupt(); }
+    std::optional<std::uint64_t> overruns() override;
     std::string absence() const override { return "port absent"; }
 
 private:
