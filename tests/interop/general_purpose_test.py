@@ -2,6 +2,7 @@
 
 import os
 import select
+import socket
 import threading
 import time
 import tty
@@ -230,6 +231,43 @@ class GeneralPurposeTest(InteropTest):
         self.client.write_coil(20, True)
         self.wait_number(UNANSWERED, 1)
         self.assertIn("send words fails: ", self.gateway.log)
+
+    def test_silence_ends_a_message(self):
+        self.start({"end_code": "silence", "end_silence_us": 50_000,
+                    "received": [{"name": "raw", "plc": "main", "device": "D100", "count": 10, "ready": "M0"}]})
+        for message in (b"one\r\n", b"two\xff\x00"):
+            self.device.say(message)
+            wait_for(f"{message}", lambda message=message: self.words(100, 10) == message)
+            self.client.write_coil(0, False)
+        self.assertEqual(self.number(RECEIVED), 2)
+
+    def test_behind_a_device_server(self):
+        server = socket.create_server(("127.0.0.1", 0))
+        self.addCleanup(server.close)
+        server.settimeout(PATIENCE)
+        gateway = self.start_gateway(self.configuration(lines=[
+            {"name": "text", "host": "127.0.0.1", "port": server.getsockname()[1], "protocol": "general-purpose",
+             "general_purpose": {"end_code": "cr-lf", "messages": [SCALE],
+                                 "sends": [{"name": "ask", "text": "W", "period_ms": 200, "answer": True}]}}]))
+        watch = gateway.watch()
+        connection, _ = server.accept()
+        self.addCleanup(connection.close)
+        connection.settimeout(PATIENCE)
+        for turn, weight in ((b"+00123.4", 1234), (b"-00000.1", 0xFFFF)):
+            self.assertEqual(connection.recv(3), b"W\r\n")
+            connection.sendall(b"ST,GS," + turn + b"kg\r\n")
+            wait_for(f"{weight}", lambda weight=weight: watch.latest("weighing.weight").get("values", [0])[0] == weight)
+        connection.close()
+        watch.expect("weighing.weight", quality="comm error")
+
+    def test_local_echo_is_no_message(self):
+        self.start({"received": [{"name": "raw", "plc": "main", "device": "D100", "count": 10}],
+                    "sends": [{"name": "tell", "text": "T", "plc": "main", "trigger": "M20"}]}, local_echo="on")
+        self.client.write_coil(20, True)
+        self.assertEqual(self.device.hear(b"\r"), b"T\r")
+        self.device.say(b"T\r" + b"T\r")  # its echo, then a device that says the same
+        self.wait_number(RECEIVED, 1)
+        holds("nothing more comes", lambda: self.number(RECEIVED) == 1, 0.3)
 
     def test_back_to_back_none_is_lost(self):
         self.start({"messages": [{"name": "count", "pattern": "N{n:number}", "plc": "main",
