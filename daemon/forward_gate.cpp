@@ -2,24 +2,55 @@
 
 namespace plcgw {
 
-asio::awaitable<std::optional<result<modbus::response>>>
-forward_gate::ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing)
+asio::awaitable<std::optional<result<modbus::response>>> forward_gate::ask(modbus::unit_id unit,
+                                                                           modbus::request request,
+                                                                           std::optional<modbus::serial_options> timing,
+                                                                           on_fault heard)
+{
+    const handle asked = begin(unit, std::move(request), std::move(timing), std::move(heard));
+    if (!asked)
+        co_return std::nullopt;
+    auto answer = co_await finish(asked);
+    co_return std::move(answer);
+}
+
+forward_gate::handle forward_gate::begin(modbus::unit_id unit, modbus::request request,
+                                         std::optional<modbus::serial_options> timing, on_fault heard)
 {
     const auto ticket = line_.forward(unit, std::move(request), std::move(timing));
     if (!ticket)
-        co_return std::nullopt;
-    const auto entry = std::make_shared<waiting>(executor_);
+        return nullptr;
+    const auto entry = std::make_shared<waiting>(executor_, *ticket);
+    entry->heard = std::move(heard);
     entry->done.expires_at(std::chrono::steady_clock::time_point::max());
     waiting_.emplace(*ticket, entry);
     driver_.wake();
     deliver();
-    while (!entry->answer)
-        co_await entry->done.async_wait(no_throw);
-    co_return std::move(entry->answer);
+    return entry;
+}
+
+asio::awaitable<result<modbus::response>> forward_gate::finish(handle asked)
+{
+    while (!asked->answer)
+        co_await asked->done.async_wait(no_throw);
+    co_return std::move(*asked->answer);
+}
+
+void forward_gate::cancel(const handle& asked)
+{
+    line_.cancel(asked->ticket);
+    waiting_.erase(asked->ticket);
+    if (asked->answer)
+        return;
+    asked->answer = boost::system::error_code(asio::error::operation_aborted);
+    asked->done.cancel();
 }
 
 void forward_gate::deliver()
 {
+    for (const forward_fault& each : line_.take_forward_faults())
+        if (const auto found = waiting_.find(each.ticket); found != waiting_.end() && found->second->heard)
+            found->second->heard(each.why);
     for (forward_answer& each : line_.take_forwarded()) {
         const auto found = waiting_.find(each.ticket);
         if (found == waiting_.end())

@@ -5,6 +5,7 @@
 #include "daemon/line_driver.hpp"
 #include "daemon/read_before.hpp"
 
+#include <functional>
 #include <map>
 #include <memory>
 
@@ -17,23 +18,35 @@ public:
     {
     }
 
-    // Nothing when too many requests wait already. timing: of the station or line, if absent.
-    asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
-                                                                 std::optional<modbus::serial_options> timing);
+    using on_fault = std::function<void(const modbus::answer_fault&)>;
 
-    void deliver();  // answers that the line has by now
+    struct waiting {
+        waiting(const asio::any_io_executor& executor, forward_ticket t) : done(executor), ticket(t) {}
+        asio::steady_timer done;  // never expires, cancelled when the answer is there
+        forward_ticket ticket;
+        std::optional<result<modbus::response>> answer;
+        on_fault heard;
+    };
+    using handle = std::shared_ptr<waiting>;
+
+    // Nothing when too many requests wait already. timing: of the station or line, if absent. heard: called for each
+    // attempt that failed, when it did.
+    asio::awaitable<std::optional<result<modbus::response>>>
+    ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing, on_fault heard);
+
+    // The same in parts, for who may have to leave before the answer. Null when too many wait.
+    handle begin(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing = {},
+                 on_fault heard = {});
+    static asio::awaitable<result<modbus::response>> finish(handle asked);
+    void cancel(const handle& asked);  // finish() ends with asio::error::operation_aborted
+
+    void deliver();  // faults and answers that the line has by now
 
 private:
-    struct waiting {
-        explicit waiting(const asio::any_io_executor& executor) : done(executor) {}
-        asio::steady_timer done;  // never expires, cancelled when the answer is there
-        std::optional<result<modbus::response>> answer;
-    };
-
     asio::any_io_executor executor_;
     modbus_line& line_;
     line_driver& driver_;
-    std::map<forward_ticket, std::shared_ptr<waiting>> waiting_;
+    std::map<forward_ticket, handle> waiting_;
 };
 
 // What a gateway tells its client (V1.1b3 chapter 7): the answer, 06 when too many wait, 0A when the port is absent, 0B

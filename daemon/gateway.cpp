@@ -26,6 +26,17 @@ std::string_view cure_of(boost::system::error_code ec)
     return "`ss -ltnp` shows who uses the port";
 }
 
+// What a PLC shows of a line that the configuration sets up.
+plc::channel_line shown_line(const line_config& line, plc::role as, unsigned unit)
+{
+    plc::channel_line shown{.as = as, .station = static_cast<std::uint8_t>(unit), .rs485 = line.rs485.enabled};
+    if (line.protocol != line_protocol::modbus_tcp)
+        shown.format = format_of(line);
+    if (line.protocol == line_protocol::modbus_ascii)
+        shown.mode = plc::framing::ascii;
+    return shown;
+}
+
 void log_event(const line_event& event)
 {
     if (event.level == line_event::severity::warning)
@@ -93,8 +104,11 @@ void gateway::make_lines()
 void gateway::make_serial_server(const line_config& line)
 {
     std::vector<modbus_station> stations;
-    for (const unit_config& each : line.units)
-        stations.emplace_back(*find_plc(each.plc), modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, each.channel);
+    for (const unit_config& each : line.units) {
+        plc::simulated_plc& plc = *find_plc(each.plc);
+        stations.emplace_back(plc, modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, each.channel);
+        plc.attach(each.channel, shown_line(line, plc::role::server, each.unit));
+    }
     serial_servers_.push_back(
         std::make_unique<serial_server>(loop_, line, std::move(stations), [this] { settle_memory(); }));
 }
@@ -114,6 +128,7 @@ void gateway::make_programs(const std::string& folder)
         const std::string text = config::program_text(each, folder).value_or("");
         for (const channel_config& channel : each.channels) {
             running_line& line = *find_line(channel.line);
+            find_plc(each.name)->attach(channel.channel, shown_line(line.config, plc::role::client, 0));
             programs_.push_back(std::make_unique<plc_program>(
                 loop_, plc::adprw_runner(plc::parse_adprw_program(text), *find_plc(each.name), channel.channel),
                 line.gate, timing_of(line.config), [this] { settle_memory(); }));

@@ -32,6 +32,11 @@ public:
     // Characters that the port lost since it exists; nothing where that is not known.
     virtual std::optional<std::uint64_t> overruns() { return std::nullopt; }
 
+    // A question went without an answer. A device server or MODBUS TCP server that has lost its mind, or its power,
+    // may hold a connection on which nothing comes any more: then it is deaf, and to be closed and opened again.
+    virtual void missed_answer() {}
+    virtual bool deaf() const { return false; }
+
     // For the quality of what came over it.
     virtual std::string absence() const = 0;
 };

@@ -156,12 +156,14 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
     line_free_from_ = asking.line_free_from();
     for (auto& each : asking.take_others())
         content.received(std::move(each), now(), wall_now());
+    for (unsigned i = 0; i < asking.unanswered(); ++i)
+        connection_->missed_answer();
     if (const auto& outcome = asking.outcome())
         content.answered(question, *outcome, now(), wall_now());
     else
         content.failed(question, outcome.error(), now(), asking.unanswered());
     settle_();
-    co_return error_code{};
+    co_return connection_->deaf() ? error_code(asio::error::timed_out) : error_code{};
 }
 
 }  // namespace plcgw

@@ -8,12 +8,13 @@ namespace {
 constexpr duration longest_pause = std::chrono::seconds(1);
 
 plc::adprw_outcome outcome_of(const plc::adprw_question& question,
-                              const std::optional<result<modbus::response>>& answer)
+                              const std::optional<result<modbus::response>>& answer,
+                              const std::optional<modbus::frame>& received)
 {
     if (!answer)  // too many others wait for the line
         return plc::failure_of(make_error_code(errc::timed_out), question.unit, question.request);
     if (!*answer)
-        return plc::failure_of(answer->error(), question.unit, question.request);
+        return plc::failure_of(answer->error(), question.unit, question.request, received);
     return **answer;
 }
 
@@ -53,9 +54,14 @@ asio::awaitable<void> plc_program::ask(plc::adprw_question question)
     timing.turnaround = question.timing.turnaround;
     timing.gap = question.timing.message_delay;
     timing.retries = question.timing.retries;
-    runner_.attempt_started(question, 0);
-    const auto answer = co_await line_.ask(question.unit, question.request, timing);
-    runner_.finished(question, outcome_of(question, answer), now());
+    timing.delimiter = question.timing.delimiter;
+    std::optional<modbus::frame> received;  // by the last attempt
+    forward_gate::on_fault heard = [&](const modbus::answer_fault& why) {
+        runner_.attempt_failed(question, why);
+        received = why.received;
+    };
+    const auto answer = co_await line_.ask(question.unit, question.request, timing, std::move(heard));
+    runner_.finished(question, outcome_of(question, answer, received), now());
     settle_();
 }
 

@@ -1,6 +1,7 @@
 #include "daemon/serial_connection.hpp"
 
 #include "daemon/log.hpp"
+#include "daemon/low_latency.hpp"
 #include "daemon/serial_port.hpp"
 
 #include <boost/asio/write.hpp>
@@ -17,6 +18,19 @@ constexpr milliseconds first_pause{200};
 constexpr milliseconds last_pause{2000};
 constexpr milliseconds write_slack{1000};
 constexpr duration short_life = std::chrono::milliseconds(100);
+
+// A driver without it is no news: ptys and most adapters.
+void ask_for_low_latency(const line_config& line, int port)
+{
+    const latency_report report = set_low_latency(port);
+    const latency_text said = describe(report, line.device);
+    if (said.to_be_cured || report.outcome == low_latency::refused)
+        log::warning("line {}: {}: {}", line.name, line.device, said.text);
+    else if (report.outcome == low_latency::set)
+        log::info("line {}: {}: {}", line.name, line.device, said.text);
+    else
+        log::debug("line {}: {}: {}", line.name, line.device, said.text);
+}
 
 }  // namespace
 
@@ -67,6 +81,8 @@ error_code serial_connection::try_open()
               line_.stop_bits);
     if (!warning.empty())
         log::warning("line {}: {}: {}", line_.name, line_.device, warning);
+    if (line_.low_latency)
+        ask_for_low_latency(line_, *fd);
     return {};
 }
 

@@ -17,7 +17,7 @@ public:
     std::optional<result<modbus::tcp_frame>> next(time_point now) override;
     bool empty() const override { return true; }  // a line may stop in the middle of a frame: that is not the end of it
     time_point deadline() const override { return in_.deadline(); }
-    bool has_transaction_ids() const override { return false; }
+    bool is_serial() const override { return true; }
     void append(buffer& to, const modbus::tcp_frame& answer) const override;
 
 private:

@@ -72,12 +72,18 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
     if (echoes_ && question.timing.echo == local_echo::automatic)
         question.timing.echo = local_echo::on;
     modbus::serial_transaction transaction(question.unit, question.request, question.timing, line_free_from_, now());
-    for (;;) {
+    bool asked = false;
+    for (std::size_t told = 0;;) {
         const auto action = transaction.next(now());
+        for (; told < transaction.faults().size(); ++told)
+            if (routes_.attempt_failed(question, transaction.faults()[told]))
+                settle_();  // a PLC's program shows its retries as they happen
         if (std::holds_alternative<modbus::serial_transaction::done>(action))
             break;
         error_code ec;
         if (const auto* to_send = std::get_if<modbus::serial_transaction::send>(&action)) {
+            if (std::exchange(asked, true) && !routes_.is_wanted(question))
+                break;
             const time_point started = now();
             ec = co_await connection_->write(to_send->adu);
             transaction.sent(started);
@@ -99,12 +105,14 @@ asio::awaitable<error_code> serial_line::exchange(modbus_line::question question
     if (transaction.echo_seen() && !std::exchange(echoes_, true))
         log::info("line {}: the adapter returns what it sends, that is left out from now on", config_.name);
     const unanswered_requests late{transaction.unanswered(), transaction.unanswered_since()};
+    for (unsigned i = 0; i < late.count; ++i)
+        connection_->missed_answer();
     if (const auto& outcome = transaction.outcome())
         routes_.answered(question, *outcome, now(), wall_now(), late);
     else
         routes_.failed(question, outcome.error(), now(), late);
     settle_();
-    co_return error_code{};
+    co_return connection_->deaf() ? error_code(asio::error::timed_out) : error_code{};
 }
 
 }  // namespace plcgw

@@ -41,8 +41,12 @@ asio::awaitable<void> serial_server::run()
 {
     for (;;) {
         const bool is_open = co_await connection_->open();
-        if (!is_open)
+        if (!is_open) {
+            for (modbus_station& each : stations_)
+                each.port_absent();
+            settle_();
             continue;
+        }
         in_ = make_framer();
         echo_ = echo_filter(config_.echo);
         const error_code ec = co_await serve();

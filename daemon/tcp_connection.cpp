@@ -17,11 +17,30 @@ constexpr milliseconds last_pause{10'000};
 constexpr milliseconds connect_timeout{5'000};
 constexpr milliseconds write_timeout{5'000};  // a server that takes nothing for so long is gone
 constexpr duration short_life = std::chrono::seconds(1);
+// A connection on which nothing comes is given up after so many questions and so much time; it is longer each time that
+// a new one did not help: the stations behind it may just be off.
+constexpr unsigned most_missed = 3;
+constexpr duration first_patience = std::chrono::seconds(5);
+constexpr duration last_patience = std::chrono::minutes(5);
+
+// A peer without power is noticed: by keep-alive, or when it does not confirm what was sent.
+void set_options(asio::ip::tcp::socket& socket)
+{
+    using idle = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_KEEPIDLE>;
+    using interval = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_KEEPINTVL>;
+    using count = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_KEEPCNT>;
+    using unconfirmed = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_USER_TIMEOUT>;
+    error_code ignored;
+    socket.set_option(idle(10), ignored);
+    socket.set_option(interval(5), ignored);
+    socket.set_option(count(3), ignored);
+    socket.set_option(unconfirmed(15'000), ignored);
+}
 
 }  // namespace
 
 tcp_connection::tcp_connection(asio::io_context& loop, const line_config& line)
-    : line_(line), socket_(loop), guard_(socket_), pause_(loop), next_pause_(first_pause)
+    : line_(line), socket_(loop), guard_(socket_), pause_(loop), next_pause_(first_pause), patience_(first_patience)
 {
 }
 
@@ -32,7 +51,9 @@ asio::awaitable<bool> tcp_connection::open()
         const error_code ec = co_await connect_before(deadline, socket_, guard_, line_.host, line_.port);
         if (!ec) {
             log::info("line {}: connected to {}:{}", line_.name, line_.host, line_.port);
-            opened_at_ = now();
+            set_options(socket_);
+            opened_at_ = heard_ = now();
+            missed_ = 0;
             said_ = false;
             co_return true;
         }
@@ -52,6 +73,8 @@ void tcp_connection::close(const error_code& why)
     error_code ignored;
     socket_.close(ignored);
     wait_first_ = true;
+    if (deaf())
+        patience_ = std::min(2 * patience_, last_patience);
     if (now() - opened_at_ >= short_life)
         next_pause_ = first_pause;
     say_absent(why);
@@ -77,7 +100,14 @@ asio::awaitable<error_code> tcp_connection::write(bytes adu)
 asio::awaitable<boost::system::result<std::size_t>> tcp_connection::read(time_point deadline, asio::mutable_buffer into)
 {
     const auto size = co_await read_before(deadline, socket_, guard_, into);
+    if (size) {
+        heard_ = now();
+        missed_ = 0;
+        patience_ = first_patience;
+    }
     co_return size;
 }
+
+bool tcp_connection::deaf() const { return missed_ >= most_missed && now() - heard_ >= patience_; }
 
 }  // namespace plcgw

@@ -16,6 +16,8 @@ public:
     asio::awaitable<boost::system::error_code> write(bytes adu) override;
     asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline, asio::mutable_buffer into) override;
     void interrupt() override { guard_.interrupt(); }
+    void missed_answer() override { ++missed_; }
+    bool deaf() const override;
     std::string absence() const override { return "no connection"; }
 
 private:
@@ -27,6 +29,9 @@ private:
     asio::steady_timer pause_;
     milliseconds next_pause_;
     time_point opened_at_{};
+    time_point heard_{};   // last byte, or opened
+    unsigned missed_ = 0;  // answers since then
+    duration patience_;
     bool wait_first_ = false;  // behind a connection that was lost
     bool said_ = false;
 };

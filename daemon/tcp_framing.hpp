@@ -27,8 +27,8 @@ public:
     // When to call next() although nothing came: silence that ends a frame.
     virtual time_point deadline() const { return time_point::max(); }
 
-    // Answers name their question, so that several may be under way. Without ids it is one at a time.
-    virtual bool has_transaction_ids() const = 0;
+    // As on a serial line: one question at a time, for answers do not name theirs; unit 0 is a broadcast.
+    virtual bool is_serial() const = 0;
 
     virtual void append(buffer& to, const modbus::tcp_frame& answer) const = 0;
 };
@@ -39,7 +39,7 @@ public:
     void feed(time_point, bytes received) override { in_.feed(received); }
     std::optional<result<modbus::tcp_frame>> next(time_point) override { return in_.next(); }
     bool empty() const override { return in_.empty(); }
-    bool has_transaction_ids() const override { return true; }
+    bool is_serial() const override { return false; }
     void append(buffer& to, const modbus::tcp_frame& answer) const override { modbus::append_mbap(to, answer); }
 
 private:

@@ -46,6 +46,8 @@ asio::awaitable<error_code> tcp_line::serve()
                 co_return ec;
         }
         settle_();
+        if (connection_.deaf())
+            co_return asio::error::timed_out;
         const error_code failed = co_await listen();
         if (failed)
             co_return failed;
@@ -91,8 +93,10 @@ void tcp_line::ask(key who, buffer& out)
 void tcp_line::ask_again_or_fail(buffer& out)
 {
     while (const auto expired = open_.take_expired(now())) {
+        connection_.missed_answer();
         const under_way& each = questions_.at(expired->who);
-        if (each.attempts <= each.question.timing.retries)
+        routes_.attempt_failed(each.question, {errc::timed_out, {}});
+        if (each.attempts <= each.question.timing.retries && routes_.is_wanted(each.question))
             ask(expired->who, out);
         else
             finish(*expired);

@@ -1,6 +1,7 @@
 #include "daemon/tcp_server.hpp"
 
 #include "daemon/log.hpp"
+#include "daemon/serial_framing.hpp"
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -11,7 +12,8 @@ namespace {
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr milliseconds accept_pause{100};  // when the process is out of descriptors
+constexpr duration network_silence = std::chrono::milliseconds(50);  // longer than a network tears a frame apart
+constexpr milliseconds accept_pause{100};                            // when the process is out of descriptors
 constexpr duration for_ever = std::chrono::hours(24 * 365);
 
 std::string to_text(const tcp::endpoint& at)
@@ -43,6 +45,7 @@ tcp_server::tcp_server(asio::io_context& loop, tcp_server_config config, const u
     service_.endpoint = to_text(address());
     service_.units = units;
     service_.settle = std::move(settle);
+    service_.max_outstanding = config_.max_outstanding;
     service_.idle_timeout = config_.idle_timeout.count() == 0 ? for_ever : duration(config_.idle_timeout);
 }
 
@@ -100,11 +103,24 @@ std::shared_ptr<void> tcp_server::take_place()
     return {clients_.get(), [counter = clients_](void*) { --*counter; }};
 }
 
+std::unique_ptr<tcp_framing> tcp_server::make_framing() const
+{
+    if (config_.framing == server_framing::tcp)
+        return std::make_unique<mbap_framing>();
+    std::vector<modbus::unit_id> own;
+    for (unsigned unit = 1; unit < service_.units.size(); ++unit)
+        if (service_.units[unit].plc != nullptr || service_.units[unit].line != nullptr)
+            own.push_back(modbus::unit_id{static_cast<std::uint8_t>(unit)});
+    const auto mode = config_.framing == server_framing::ascii ? modbus::framing::ascii : modbus::framing::rtu;
+    return std::make_unique<serial_framing>(mode, std::move(own), network_silence);
+}
+
 asio::awaitable<void> tcp_server::serve(tcp::socket client, std::string peer, std::shared_ptr<void> place)
 {
-    auto framing = std::make_unique<mbap_framing>();
-    tcp_session session(std::move(client), std::move(peer), std::move(framing), service_);
-    co_await session.run();
+    auto framing = make_framing();
+    const auto session =
+        std::make_shared<tcp_session>(std::move(client), std::move(peer), std::move(framing), service_);
+    co_await session->run();
     place.reset();
 }
 

@@ -25,6 +25,7 @@ public:
 private:
     asio::ip::tcp::endpoint address() const;
     asio::awaitable<void> serve(asio::ip::tcp::socket client, std::string peer, std::shared_ptr<void> place);
+    std::unique_ptr<tcp_framing> make_framing() const;
     std::shared_ptr<void> take_place();  // null when there are max_clients already
 
     tcp_server_config config_;

@@ -8,7 +8,9 @@
 #include <boost/asio/ip/tcp.hpp>
 
 #include <array>
+#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -20,6 +22,7 @@ struct tcp_service {
     unit_table units;
     std::function<void()> settle;  // called after replies went out, to drain what the requests changed
     duration idle_timeout{};
+    unsigned max_outstanding = 1;  // forwarded requests of one client at a time
 
     // Some in each period: a client that sends nonsense all the time does not fill the log.
     bool may_complain();
@@ -29,7 +32,9 @@ private:
     unsigned complaints_ = 0;
 };
 
-class tcp_session {
+// Requests to PLCs are answered at once, in their order; those to lines when the line has the answer, in the order of
+// the requests to the same station. While max_outstanding wait for lines, nothing more is read from the client.
+class tcp_session : public std::enable_shared_from_this<tcp_session> {
 public:
     // peer: for the log. The service outlives the session's work.
     tcp_session(asio::ip::tcp::socket client, std::string peer, std::unique_ptr<tcp_framing> framing,
@@ -38,17 +43,55 @@ public:
     asio::awaitable<void> run();  // until the client leaves, or has to
 
 private:
-    asio::awaitable<bool> answer();
-    asio::awaitable<bool> write_replies();
-    asio::awaitable<buffer> forward(const unit_target& to, bytes pdu);
+    struct forwarded {
+        modbus::transaction_id id{};
+        modbus::unit_id unit{};  // as the client calls it
+        modbus::request request;
+    };
+    struct station_queue {
+        std::deque<forwarded> waiting;  // the first one is under way
+        forward_gate::handle under_way;
+    };
+    using station_key = std::pair<forward_gate*, modbus::unit_id>;
+
+    void take_questions();
+    void take(const modbus::tcp_frame& question);
+    void take_broadcast(bytes pdu);
+    void forward(const modbus::tcp_frame& question, const unit_target& to);
+    static asio::awaitable<void> ask_station(std::shared_ptr<tcp_session> self, station_key to);
+    asio::awaitable<void> something_changed();
+    bool is_full() const;
+    bool has_hung_up();
+
+    void flush();  // one write at a time, of all that is there
+    void watch();  // that deadlines are kept
+    void look();   // whether one has passed
+    time_point overdue_at() const;
+    void abandon();  // what waits for lines
+    void close();
 
     asio::ip::tcp::socket socket_;
-    deadline_guard<asio::ip::tcp::socket> guard_;
     std::string peer_;
     std::unique_ptr<tcp_framing> framing_;
     tcp_service& service_;
-    buffer replies_;
     std::array<std::uint8_t, 4096> received_{};
+    bool is_open_ = true;
+    bool good_ = true;  // the stream can be trusted
+
+    std::map<station_key, station_queue> stations_;
+    std::size_t under_way_ = 0;  // in all of them
+    bool abandoned_ = false;
+    asio::steady_timer changed_;  // cancelled when something did
+
+    buffer replies_;
+    buffer sending_;  // while writing_
+    bool writing_ = false;
+
+    asio::steady_timer watch_;
+    time_point looking_at_ = time_point::max();  // when the timer will look
+    time_point quiet_since_;
+    time_point part_since_;  // that only a part of a request is there
+    time_point write_until_{};
 };
 
 }  // namespace plcgw

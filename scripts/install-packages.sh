@@ -8,12 +8,15 @@ usage() {
     exit 2
 }
 
+# The installed packages, and what they provide: NodeSource's nodejs, for one, is npm as well.
+installed() {
+    # shellcheck disable=SC2016  # dpkg-query's variables
+    dpkg-query --show --showformat='${db:Status-Status}, ${binary:Package}, ${Provides}\n' |
+        sed -n '/^installed, /{s///; s/ ([^)]*)//g; s/:[a-z0-9]*,/,/; s/, */\n/g; p}'
+}
+
 missing_of() {
-    local package
-    for package; do
-        dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed ||
-            printf '%s\n' "$package"
-    done
+    printf '%s\n' "$@" | grep -vxFf <(installed) || true
 }
 
 # Root installs by itself, others through sudo; who has neither is told the command.

@@ -21,6 +21,7 @@ test_packages=(
     "${build_packages[@]}"
     doctest-dev clang-format clang-tools-14 shellcheck mandoc git
     mbpoll python3-pymodbus python3-serial-asyncio python3-jsonschema socat procps   # other people's software at the other end of every wire
+    nodejs npm                                                # jsmodbus and modbus-serial, which npm installs
     systemd systemd-container dbus                            # a service under a real systemd
     podman buildah crun mmdebstrap docker-compose             # the Dockerfile without a Docker engine
 )

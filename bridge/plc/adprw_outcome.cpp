@@ -10,8 +10,8 @@ struct error_row {
 
 constexpr error_row errors[] = {
     {errc::bad_checksum, modbus_error::checksum},
-    {errc::bad_header, modbus_error::length_mismatch},
-    {errc::incomplete, modbus_error::length_mismatch},
+    {errc::bad_header, modbus_error::checksum},
+    {errc::incomplete, modbus_error::checksum},
     {errc::too_short, modbus_error::checksum},
     {errc::overlong, modbus_error::character_overrun},
     {errc::bad_character, modbus_error::unconvertible_character},

@@ -11,6 +11,7 @@ using std::chrono::milliseconds;
 constexpr std::uint32_t run_monitor = 8000;
 constexpr std::uint32_t initial_pulse = 8002;
 
+constexpr std::uint8_t line_feed = 0x0A;
 constexpr unsigned most_retries = 20;
 constexpr std::uint16_t longest_timeout = 32767;        // ms, D8409 and D8410
 constexpr std::uint16_t longest_message_delay = 16382;  // ms, D8411
@@ -166,6 +167,7 @@ std::optional<adprw_question> adprw_runner::ask(std::size_t index, time_point no
     states_[index].not_before = {};
     status_.started(of.step);
     asked_ = ++questions_;
+    failed_attempts_ = 0;
     return adprw_question{asked->unit, std::move(asked->request), timing(), of.step, *asked_, asked->target, index};
 }
 
@@ -175,14 +177,18 @@ adprw_timing adprw_runner::timing() const
     return {time_of(status_.setting(d.response_timeout), longest_timeout, default_response_timeout),
             time_of(status_.setting(d.turnaround_delay), longest_timeout, default_turnaround),
             time_of(status_.setting(d.message_delay), longest_message_delay, {}),
-            std::min<unsigned>(status_.setting(d.retries), most_retries)};
+            std::min<unsigned>(status_.setting(d.retries), most_retries),
+            d.delimiter == 0 ? line_feed : static_cast<std::uint8_t>(status_.setting(d.delimiter))};
 }
 
-void adprw_runner::attempt_started(const adprw_question& q, unsigned attempt)
+void adprw_runner::attempt_failed(const adprw_question& q, const modbus::answer_fault& why)
 {
     follow_switch();
-    if (is_out(q) && attempt > 0)
-        status_.retrying(attempt);
+    if (!is_out(q))
+        return;
+    status_.count_fault(why);
+    if (++failed_attempts_ <= q.timing.retries)
+        status_.retrying(failed_attempts_);
 }
 
 void adprw_runner::finished(const adprw_question& q, const adprw_outcome& outcome, time_point now)
@@ -198,6 +204,7 @@ void adprw_runner::finished(const adprw_question& q, const adprw_outcome& outcom
         return;
     }
     const auto& answer = std::get<modbus::response>(outcome);
+    status_.count_answer(answer);
     if (const auto* exception = std::get_if<modbus::exception_code>(&answer))
         status_.failed(error_of(*exception, q), q.step);
     else if (!store_answer({q.unit, q.request, q.target}, answer, plc_->memory()))

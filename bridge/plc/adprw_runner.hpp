@@ -8,12 +8,13 @@
 
 namespace plcgw::plc {
 
-// D8409 to D8412, as they are when the instruction begins. An invalid time is the nearest valid one.
+// D8406 and D8409 to D8412, as they are when the instruction begins. An invalid time is the nearest valid one.
 struct adprw_timing {
     duration response_timeout{3'000'000};
     duration turnaround{400'000};  // after a broadcast
     duration message_delay{};      // before a request; at least 3.5 characters, 0 stands for these
     unsigned retries = 0;
+    std::uint8_t delimiter = 0x0A;  // D8406: the second end character of ASCII
     bool operator==(const adprw_timing&) const = default;
 };
 
@@ -42,7 +43,9 @@ public:
     std::optional<adprw_question> next(time_point now);
     time_point wake_at(time_point now) const;  // when next() has something to do, if no device changes before
 
-    void attempt_started(const adprw_question& q, unsigned attempt);  // 0 = first, then the retries
+    // Nothing or no answer that fits came to one attempt; each of them is told before finished(). The next attempt
+    // begins at once, if there are retries left.
+    void attempt_failed(const adprw_question& q, const modbus::answer_fault& why);
     void finished(const adprw_question& q, const adprw_outcome& outcome, time_point now);
 
     bool is_out(const adprw_question& q) const { return asked_ == q.number; }
@@ -72,6 +75,7 @@ private:
     bool first_scan_ = true;     // M8002
     std::uint64_t questions_ = 0;
     std::optional<std::uint64_t> asked_;
+    unsigned failed_attempts_ = 0;  // of the question that is out
 };
 
 }  // namespace plcgw::plc

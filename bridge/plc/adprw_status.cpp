@@ -8,6 +8,20 @@ constexpr unsigned protocol_server = 1U << 4;
 constexpr unsigned ls_modbus = 1U << 14;
 constexpr unsigned ls_client = 1U << 15;
 
+// What each failure counts as. A frame that is not this question's answer is a message all the same.
+struct count_row {
+    errc why;
+    counter which;
+};
+
+constexpr count_row counts[] = {
+    {errc::unexpected_answer, counter::bus_message},      {errc::bad_checksum, counter::bus_communication_error},
+    {errc::bad_header, counter::bus_communication_error}, {errc::incomplete, counter::bus_communication_error},
+    {errc::too_short, counter::bus_communication_error},  {errc::bad_character, counter::bus_communication_error},
+    {errc::collision, counter::bus_communication_error},  {errc::overlong, counter::character_overrun},
+    {errc::line_not_quiet, counter::character_overrun},
+};
+
 }  // namespace
 
 modbus_error ls_error(const adprw_error& e)
@@ -96,8 +110,33 @@ void adprw_status::show(const adprw_error& e, std::uint16_t step)
         plc_->show_register(channel_->registers.error_step, step);
 }
 
+void adprw_status::count_answer(const modbus::response& answer)
+{
+    if (std::holds_alternative<modbus::no_response>(answer))
+        return;
+    count(counter::bus_message);
+    if (std::holds_alternative<modbus::exception_code>(answer))
+        count(counter::exception_error);
+}
+
+void adprw_status::count_fault(const modbus::answer_fault& fault)
+{
+    for (const count_row& row : counts)
+        if (row.why == fault.why)
+            count(row.which);
+}
+
+void adprw_status::count(counter which)
+{
+    counters_.count(which);
+    const std::optional<place>& first = plc_->channel_at(channel_->number).status.counters;
+    for (std::size_t i = 0; first && i < counter_registers; ++i)
+        plc_->memory().set_word({first->area, first->bit + 16 * i}, counters_.registers()[i]);
+}
+
 void adprw_status::program_started()
 {
+    counters_.clear();
     if (ls_)
         return;
     plc_->show_flag(operation_error_device, false);

@@ -5,6 +5,8 @@
 #include "bridge/plc/adprw_operands.hpp"
 #include "bridge/plc/adprw_outcome.hpp"
 #include "bridge/plc/simulated_plc.hpp"
+#include "bridge/services/comm_counters.hpp"
+#include "protocols/modbus/answer_fault.hpp"
 
 namespace plcgw::plc {
 
@@ -29,7 +31,12 @@ public:
     void refused_in_server(std::uint16_t step);                    // 217
     void refused(const operand_fault& fault, std::uint16_t step);  // 218
 
-    void program_started();  // STOP to RUN: clears M8067
+    // The client's counters (6.4), shown where D8415 and D8416 say. Only answers reach it: what others say on the line
+    // while nobody was asked is not counted.
+    void count_answer(const modbus::response& answer);
+    void count_fault(const modbus::answer_fault& fault);
+
+    void program_started();  // STOP to RUN: clears M8067 and the counters
     void program_stopped();  // nothing is in process any more
 
     bool is_server() const;                             // D8401 b4; LS: D8400 says MODBUS and not master
@@ -37,10 +44,12 @@ public:
 
 private:
     void clear_command();
+    void count(counter which);
     void show(const adprw_error& e, std::uint16_t step);
 
     simulated_plc* plc_;
     const channel* channel_;
+    comm_counters counters_;
     bool ls_;
 };
 

@@ -67,6 +67,17 @@ settings_result with_characters(channel_settings s, std::uint16_t format, std::s
     return s;
 }
 
+// Bits 0 to 7.
+std::optional<std::uint16_t> encode_characters(const character_format& f, std::span<const baud_code> bauds)
+{
+    const unsigned parity_bits = f.check == parity::none ? 0U : f.check == parity::odd ? 1U : 3U;
+    for (const baud_code& each : bauds)
+        if (each.rate == f.baud_rate)
+            return static_cast<std::uint16_t>((f.data_bits == 8 ? 1U : 0U) | parity_bits << 1 |
+                                              (f.stop_bits == 2 ? 8U : 0U) | each.code << 4);
+    return std::nullopt;
+}
+
 }  // namespace
 
 settings_result decode_fx3(std::uint16_t format, std::uint16_t protocol)
@@ -90,6 +101,29 @@ settings_result decode_ls(std::uint16_t format)
         return settings_fault{in::format, "mode (b13, b12) is 11, expected 00 RTU, 01 ASCII or 10 TCP"};
     const channel_settings s{.enabled = true, .mode = modes[mode], .as = bit(format, 15) ? role::client : role::server};
     return with_characters(s, format, ls_bauds);
+}
+
+std::optional<std::uint16_t> encode_fx3_format(const channel_settings& s)
+{
+    const auto characters = encode_characters(s.format, fx3_bauds);
+    if (!characters)
+        return std::nullopt;
+    return static_cast<std::uint16_t>(*characters | (s.rs485 ? 1U << 12 : 0U));
+}
+
+std::uint16_t encode_fx3_protocol(const channel_settings& s)
+{
+    return static_cast<std::uint16_t>((s.enabled ? 1U : 0U) | (s.as == role::server ? 1U << 4 : 0U) |
+                                      (s.mode == framing::ascii ? 1U << 8 : 0U));
+}
+
+std::optional<std::uint16_t> encode_ls(const channel_settings& s)
+{
+    const auto characters = encode_characters(s.format, ls_bauds);
+    if (!characters)
+        return std::nullopt;
+    return static_cast<std::uint16_t>(*characters | static_cast<unsigned>(s.mode) << 12 | (s.enabled ? 1U << 14 : 0U) |
+                                      (s.as == role::client ? 1U << 15 : 0U));
 }
 
 settings_result decode(const model& m, const channel& of, std::uint16_t format, std::uint16_t protocol)

@@ -6,6 +6,7 @@
 
 #include <boost/system/result.hpp>
 
+#include <optional>
 #include <string>
 
 namespace plcgw::plc {
@@ -36,5 +37,11 @@ settings_result decode_ls(std::uint16_t format);
 
 // By the model's style, and refusing what this model or channel cannot do: ASCII, 7 data bits, to be a client.
 settings_result decode(const model& m, const channel& of, std::uint16_t format, std::uint16_t protocol);
+
+// The other way round, for a channel that the configuration sets up. Nothing when the register has no code for it: an
+// odd baud rate.
+std::optional<std::uint16_t> encode_fx3_format(const channel_settings& s);
+std::uint16_t encode_fx3_protocol(const channel_settings& s);
+std::optional<std::uint16_t> encode_ls(const channel_settings& s);
 
 }  // namespace plcgw::plc

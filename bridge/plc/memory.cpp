@@ -15,21 +15,6 @@ void append(std::vector<change>& changes, const change& next)
         changes.push_back(next);
 }
 
-// The bits of an area's register that belong to devices. Bit devices may end inside their last one (an FX3S's Y0-Y15)
-// or begin inside their first (its CS200); there is nothing in the others that could be on.
-unsigned devices_in(const area& a, std::size_t index)
-{
-    unsigned bits = 0xFFFF;
-    if (a.bits_per_device != 1)
-        return bits;
-    const std::size_t begin = 16 * index;
-    if (begin < a.absent)
-        bits &= 0xFFFFU << (a.absent - begin);
-    if (a.count < begin + 16)
-        bits &= 0xFFFFU >> (begin + 16 - a.count);
-    return bits;
-}
-
 }  // namespace
 
 bool overlaps(const change& changed, place first, std::size_t bits)
@@ -42,9 +27,19 @@ memory::memory(const plc::model& m) : model_(&m)
 {
     for (const area& a : m.areas) {
         image& made = images_.emplace_back();
-        made.registers.resize((a.count * a.bits_per_device + 15) / 16);
+        const std::size_t bits = std::size_t{a.count} * a.bits_per_device;
+        made.registers.resize((bits + 15) / 16);
         made.dirty.resize(made.registers.size());
+        made.writable.assign(made.registers.size(), 0xFFFF);
+        close(made, 0, std::size_t{a.absent} * a.bits_per_device);
+        close(made, bits, 16 * made.registers.size() - bits);
     }
+}
+
+void memory::close(image& of, std::size_t first_bit, std::size_t count)
+{
+    for (std::size_t bit = first_bit; bit < first_bit + count; ++bit)
+        of.writable[bit / 16] = static_cast<std::uint16_t>(of.writable[bit / 16] & ~(1U << bit % 16));
 }
 
 std::optional<place> memory::find(device d) const
@@ -88,22 +83,44 @@ void memory::set_bit(place p, bool value)
 {
     image& of = images_[p.area];
     const std::uint16_t before = of.registers[p.bit / 16];
-    const unsigned mask = 1U << (p.bit % 16) & devices_in(model_->areas[p.area], p.bit / 16);
+    const unsigned mask = 1U << p.bit % 16 & of.writable[p.bit / 16];
     store(of, p.bit / 16, static_cast<std::uint16_t>(value ? before | mask : before & ~mask));
 }
 
 void memory::set_word(place p, std::uint16_t value)
 {
     image& of = images_[p.area];
-    const area& a = model_->areas[p.area];
     const std::size_t index = p.bit / 16;
     const std::size_t shift = p.bit % 16;
-    const std::uint32_t mask = 0xFFFFU << shift & (devices_in(a, index) | devices_in(a, index + 1) << 16);
-    const std::uint32_t moved = std::uint32_t{value} << shift & mask;
-    store(of, index, static_cast<std::uint16_t>((of.registers[index] & ~mask) | (moved & 0xFFFF)));
+    const std::uint32_t mask = 0xFFFFU << shift;
+    const std::uint32_t moved = std::uint32_t{value} << shift;
+    const auto put = [&of, this](std::size_t at, std::uint32_t bits, std::uint32_t values) {
+        const std::uint32_t open = bits & of.writable[at];
+        store(of, at, static_cast<std::uint16_t>((of.registers[at] & ~open) | (values & open)));
+    };
+    put(index, mask, moved);
     if (shift != 0)
-        store(of, index + 1, static_cast<std::uint16_t>((of.registers[index + 1] & ~(mask >> 16)) | moved >> 16));
+        put(index + 1, mask >> 16, moved >> 16);
 }
+
+void memory::set_protected(place p, std::size_t bits, bool on)
+{
+    image& of = images_[p.area];
+    if (on)
+        close(of, p.bit, bits);
+    for (std::size_t bit = p.bit; !on && bit < p.bit + bits; ++bit)
+        of.writable[bit / 16] = static_cast<std::uint16_t>(of.writable[bit / 16] | 1U << bit % 16);
+}
+
+void memory::show_bit(place p, bool value)
+{
+    image& of = images_[p.area];
+    const std::uint16_t before = of.registers[p.bit / 16];
+    const unsigned mask = 1U << p.bit % 16;
+    store(of, p.bit / 16, static_cast<std::uint16_t>(value ? before | mask : before & ~mask));
+}
+
+void memory::show_word(place p, std::uint16_t value) { store(images_[p.area], p.bit / 16, value); }
 
 void memory::store(image& of, std::size_t index, std::uint16_t value)
 {

@@ -39,12 +39,18 @@ public:
     // How many registers or bits there are from a place to the end of its area.
     std::size_t bits_from(place p) const;
 
-    // The caller has checked that the run lies within bits_from(p).
+    // The caller has checked that the run lies within bits_from(p). Bits that only fill up a register of bit devices
+    // stay 0, and protected devices stay what the PLC shows in them.
     bool bit(place p) const;
     std::uint16_t word(place p) const;
     void read(place p, std::span<std::uint16_t> words) const;
     void set_bit(place p, bool value);
     void set_word(place p, std::uint16_t value);  // bits of no device stay 0
+
+    // Devices that nobody but the PLC sets: show_word() and show_bit() do, the others pass over them.
+    void set_protected(place p, std::size_t bits, bool on);
+    void show_bit(place p, bool value);
+    void show_word(place p, std::uint16_t value);  // of a word device or a whole register of bit devices
 
     std::vector<change> take_changes();  // since the last call, in the order of areas and numbers
     bool has_changes() const { return changed_; }
@@ -52,11 +58,13 @@ public:
 private:
     struct image {
         std::vector<std::uint16_t> registers;
-        std::vector<std::uint16_t> dirty;  // bits that changed
-        std::size_t dirty_begin = 0;       // dirty registers lie in [begin, end)
+        std::vector<std::uint16_t> dirty;     // bits that changed
+        std::vector<std::uint16_t> writable;  // bits that anybody may set
+        std::size_t dirty_begin = 0;          // dirty registers lie in [begin, end)
         std::size_t dirty_end = 0;
     };
 
+    static void close(image& of, std::size_t first_bit, std::size_t count);
     void store(image& of, std::size_t index, std::uint16_t value);
 
     const plc::model* model_;

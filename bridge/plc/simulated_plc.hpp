@@ -6,6 +6,16 @@
 
 namespace plcgw::plc {
 
+// The line of the configuration that stands behind a channel. What the setup program says of it goes before this, in
+// D8400, D8401 and D8414; D8405 shows what is in force.
+struct channel_line {
+    role as = role::server;
+    std::uint8_t station = 0;  // of a server; 0 = not said
+    framing mode = framing::rtu;
+    bool rs485 = false;
+    std::optional<character_format> format{};  // nothing: no serial line, or not said
+};
+
 enum class run_state : std::uint8_t { stop, run };
 
 class simulated_plc {
@@ -39,12 +49,14 @@ public:
     const channel_state& channel_at(unsigned number) const;  // throws std::out_of_range
 
     // A line of the configuration stands behind this channel, whatever the program says. Power cycles keep it.
-    void attach(unsigned channel, role as);
+    void attach(unsigned channel, const channel_line& line);
+    void attach(unsigned channel, role as) { attach(channel, channel_line{.as = as}); }
 
     // Error code and detail, the error flag and its latch, and the serial error of this channel (12.6).
     void show_error(unsigned channel, modbus_error code, std::uint16_t detail = 0);
 
-    // Special devices by their number in special_registers.hpp; 0 is none.
+    // Special devices by their number in special_registers.hpp; 0 is none. Those that the manuals mark "R" change by
+    // these alone, but for the error flags: "can be cleared by a program or a peripheral device" (7.11.6).
     void show_register(std::uint32_t number, std::uint16_t value);
     void show_flag(std::uint32_t number, bool on);
     bool flag(std::uint32_t number) const;
@@ -54,13 +66,15 @@ private:
     void clear_devices();
     void show_state();
     void show_channel(const channel_state& c);
+    void show_line(const channel_state& c, const channel_line& line);
+    void protect_read_only();
 
     std::string name_;
     setup_program program_;
     plc::memory memory_;
     checked_setup setup_;
     std::optional<parameter_fault> fault_;
-    std::map<unsigned, role> attached_;  // by channel number
+    std::map<unsigned, channel_line> attached_;  // by channel number
     run_state state_ = run_state::run;
     unsigned power_ons_ = 0;
     unsigned starts_ = 0;

@@ -2,11 +2,13 @@
 // order in which they came.
 #pragma once
 
+#include "protocols/modbus/answer_fault.hpp"
 #include "protocols/modbus/response.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
 #include <deque>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,12 @@ struct forward_request {
 struct forward_answer {
     forward_ticket ticket{};
     result<modbus::response> response;
+};
+
+// One attempt of a request went wrong; others may follow, and its answer will.
+struct forward_fault {
+    forward_ticket ticket{};
+    modbus::answer_fault why;
 };
 
 class forward_queue {
@@ -46,25 +54,44 @@ public:
     {
         forward_request first = std::move(waiting_.front());
         waiting_.pop_front();
+        under_way_.insert(first.ticket);
         return first;
     }
 
+    // Of a request that was taken. Dropped if its asker has left meanwhile.
     void answer(forward_ticket ticket, result<modbus::response> response)
     {
-        answers_.push_back({ticket, std::move(response)});
+        if (under_way_.erase(ticket) != 0)
+            answers_.push_back({ticket, std::move(response)});
     }
 
     void answer_all(errc why)
     {
         for (; !waiting_.empty(); waiting_.pop_front())
-            answer(waiting_.front().ticket, make_error_code(why));
+            answers_.push_back({waiting_.front().ticket, make_error_code(why)});
     }
 
+    // Its asker has left: it is not taken any more, or, if it was, not repeated.
+    void cancel(forward_ticket ticket)
+    {
+        std::erase_if(waiting_, [ticket](const forward_request& each) { return each.ticket == ticket; });
+        std::erase_if(answers_, [ticket](const forward_answer& each) { return each.ticket == ticket; });
+        under_way_.erase(ticket);
+    }
+
+    // Somebody waits for the answer of this request, which was taken.
+    bool is_wanted(forward_ticket ticket) const { return under_way_.contains(ticket); }
+
+    void note_fault(forward_ticket ticket, modbus::answer_fault why) { faults_.push_back({ticket, std::move(why)}); }
+
     std::vector<forward_answer> take_answers() { return std::exchange(answers_, {}); }
+    std::vector<forward_fault> take_faults() { return std::exchange(faults_, {}); }
 
 private:
     std::deque<forward_request> waiting_;
+    std::set<forward_ticket> under_way_;
     std::vector<forward_answer> answers_;
+    std::vector<forward_fault> faults_;
     std::uint64_t last_ = 0;
 };
 

@@ -70,7 +70,7 @@ std::optional<modbus_line::question> modbus_line::next(time_point now)
         chosen = next_forward(now);
     forwarded_last_ = chosen && std::holds_alternative<forward_ticket>(chosen->origin);
     if (chosen)
-        chosen->timing.delimiter = delimiter_of(chosen->unit);
+        chosen->timing.delimiter = delimiter_of(chosen->unit, chosen->timing.delimiter);
     return chosen;
 }
 
@@ -89,10 +89,12 @@ std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
     return std::nullopt;
 }
 
-std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit) const
+std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_stranger) const
 {
     const auto told = delimiters_.find(unit);
-    return told != delimiters_.end() && told->second.in_force ? told->second.character : modbus::ascii_delimiter;
+    if (told == delimiters_.end())
+        return of_a_stranger;
+    return told->second.in_force ? told->second.character : modbus::ascii_delimiter;
 }
 
 void modbus_line::learn_delimiter(const question& q, const modbus::response& answer)
@@ -127,6 +129,14 @@ std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
     if (!turn->with_retries)
         q.timing.retries = 0;
     return q;
+}
+
+bool modbus_line::attempt_failed(const question& q, const modbus::answer_fault& why)
+{
+    const auto* const forwarded = std::get_if<forward_ticket>(&q.origin);
+    if (forwarded != nullptr)
+        forwards_.note_fault(*forwarded, why);
+    return forwarded != nullptr;
 }
 
 void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,

@@ -36,6 +36,13 @@ public:
     std::optional<forward_ticket> forward(modbus::unit_id unit, modbus::request request,
                                           std::optional<modbus::serial_options> timing = {});
     std::vector<forward_answer> take_forwarded() { return forwards_.take_answers(); }
+    std::vector<forward_fault> take_forward_faults()
+    {
+        return forwards_.take_faults();
+    }  // to be told before the answers
+
+    // The asker has left: its request does not use the line any more, as far as that can be helped.
+    void cancel(forward_ticket ticket) { forwards_.cancel(ticket); }
 
     struct question {
         std::variant<schedule::turn, forward_ticket> origin;
@@ -47,6 +54,17 @@ public:
 
     std::optional<question> next(time_point now);
     time_point wake_at(time_point now) const { return forwards_.empty() ? schedule_.wake_at(now) : now; }
+
+    // False when its asker has left: what was sent cannot be called back, but it is not worth a repetition.
+    bool is_wanted(const question& q) const
+    {
+        const auto* const forwarded = std::get_if<forward_ticket>(&q.origin);
+        return forwarded == nullptr || forwards_.is_wanted(*forwarded);
+    }
+
+    // What came, or did not, to one attempt of a question that is still out. True when somebody waits to hear of it:
+    // the PLC's program shows retries as they happen.
+    bool attempt_failed(const question& q, const modbus::answer_fault& why);
 
     // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered.
     void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
@@ -87,7 +105,7 @@ private:
     std::optional<question> next_poll(time_point now);
     std::optional<question> next_forward(time_point now);
     const station* find(modbus::unit_id unit) const;
-    std::uint8_t delimiter_of(modbus::unit_id unit) const;
+    std::uint8_t delimiter_of(modbus::unit_id unit, std::uint8_t of_a_stranger) const;
     void learn_delimiter(const question& q, const modbus::response& answer);
     void doubt_delimiter(modbus::unit_id unit);
     void lose(row& of, const std::string& why);

@@ -83,6 +83,12 @@ void modbus_station::bus_error(errc why) { damaged(error_of(why)); }
 
 void modbus_station::bit_error() { damaged(modbus_error::bit_level); }
 
+void modbus_station::port_absent()
+{
+    if (follow_plc())
+        plc_->show_error(channel_, modbus_error::invalid_hardware, static_cast<std::uint16_t>(channel_));
+}
+
 // 6.4 does not list an unconvertible character as a communication error, but such a frame has no LRC that could match.
 void modbus_station::damaged(modbus_error error)
 {

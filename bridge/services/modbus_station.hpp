@@ -23,6 +23,8 @@ public:
     void bus_error(errc why);  // a damaged one: bad_checksum, too_short, incomplete, overlong, bad_character
     void bit_error();          // the same when the port says parity, framing or receive overrun
 
+    void port_absent();  // the serial port is not there: what a PLC says without its adapter (error 0201)
+
     // The PDU of the reply. Nothing for other stations' requests, broadcasts, in listen-only mode, and when the PLC's
     // setup program forbids the channel to operate.
     std::optional<buffer> answer(const modbus::frame& request);

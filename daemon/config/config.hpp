@@ -65,6 +65,7 @@ struct line_config {
     parity check = parity::even;
     unsigned stop_bits = 1;
     rs485_config rs485;
+    bool low_latency = true;  // of a serial line, where the driver has it
     milliseconds response_timeout{500};
     unsigned retries = 1;
     milliseconds turnaround_delay{100};
@@ -95,13 +96,17 @@ struct route_config {
     milliseconds period{1000};
 };
 
+enum class server_framing : std::uint8_t { tcp, rtu, ascii };
+
 struct tcp_server_config {
     std::string listen = "127.0.0.1";
     unsigned port = 502;
     std::vector<unit_config> units;
+    server_framing framing = server_framing::tcp;
     std::string other_units;  // PLC or line for the unit ids that are not listed; empty: exception 0A
     unsigned max_clients = 256;
     std::chrono::seconds idle_timeout{0};  // 0 = a client may be silent for ever
+    unsigned max_outstanding = 16;         // requests of one client that wait for lines at a time
 };
 
 struct block_config {

@@ -12,6 +12,8 @@ inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_p
                                                            {"modbus-tcp", line_protocol::modbus_tcp},
                                                            {"general-purpose", line_protocol::general_purpose}};
 inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
+inline constexpr choice<server_framing> server_framings[] = {
+    {"tcp", server_framing::tcp}, {"rtu", server_framing::rtu}, {"ascii", server_framing::ascii}};
 inline constexpr choice<local_echo> local_echoes[] = {
     {"off", local_echo::off}, {"on", local_echo::on}, {"auto", local_echo::automatic}};
 inline constexpr choice<parity> parities[] = {{"none", parity::none}, {"odd", parity::odd}, {"even", parity::even}};
@@ -86,6 +88,8 @@ void describe(Visitor& v, line_config& c)
     v.optional("parity", c.check, "Parity bit", parities);
     v.optional("stop_bits", c.stop_bits, "Stop bits", range{1, 2});
     v.optional("rs485", c.rs485, "RS-485 direction control by the driver");
+    v.optional("low_latency", c.low_latency,
+               "Ask the driver to deliver bytes at once (ASYNC_LOW_LATENCY): USB adapters keep them for up to 16 ms");
     v.optional("response_timeout_ms", c.response_timeout,
                "Milliseconds from the end of a request to the first byte of its answer", range{1, 60'000});
     v.optional("retries", c.retries, "Repetitions of a request that got no good answer", range{0, 20});
@@ -129,12 +133,18 @@ void describe(Visitor& v, tcp_server_config& c)
 {
     v.optional("listen", c.listen, "Address to listen on; 0.0.0.0 or :: for every interface", text{1});
     v.optional("port", c.port, "TCP port", range{1, 65'535});
+    v.optional("framing", c.framing,
+               "tcp: MODBUS TCP; rtu or ascii: serial device servers connect and pass on what is said on their lines",
+               server_framings);
     v.optional("units", c.units, "Which unit id leads to which PLC");
     v.optional("other_units", c.other_units, "PLC or line for all other unit ids; empty: they get exception 0A",
                text{0, 64});
     v.optional("max_clients", c.max_clients, "Connections at a time", range{1, 10'000});
     v.optional("idle_timeout_s", c.idle_timeout, "Seconds until a silent client is disconnected; 0 = never",
                range{0, 86'400});
+    v.optional("max_outstanding", c.max_outstanding,
+               "Forwarded requests of one client under way at a time; then it is not read until one is answered",
+               range{1, 256});
 }
 
 template <class Visitor>

@@ -82,6 +82,8 @@ errc rtu_answer::failure() const
         return errc::incomplete;
     if (crc_fits(received_))
         return errc::unexpected_answer;
+    if (received_.size() > max_rtu_size)
+        return errc::overlong;  // FX3 error 206
     const bool answers_us = received_[0] == static_cast<std::uint8_t>(unit_) && received_[1] == function_;
     const auto whole = response_size(*question_, bytes(received_).subspan(1));
     return answers_us && (!whole || received_.size() < *whole + rtu_overhead) ? errc::incomplete : errc::bad_checksum;

@@ -187,6 +187,7 @@ TEST_CASE("defaults: the numbers that the manual page and the README tell")
     CHECK(line.check == parity::even);
     CHECK(line.response_timeout == milliseconds(500));
     CHECK(line.retries == 1);
+    CHECK(line.low_latency);
     const tcp_server_config server;
     CHECK(server.listen == "127.0.0.1");
     CHECK(server.port == 502);

@@ -1,10 +1,52 @@
 """MODBUS TCP clients reach the devices of a line through the gateway, while it polls them."""
 
 import socket
+import struct
 import threading
 import time
 
-from support import InteropTest, Refused, main, route, serial_line, station
+from support import PATIENCE, InteropTest, Refused, main, route, serial_line, station
+
+
+def read_holding(unit, first):
+    return unit, struct.pack(">BHH", 3, first, 1)
+
+
+def write_register(unit, at, value):
+    return unit, struct.pack(">BHH", 6, at, value)
+
+
+class Pipeline:
+    """A plain connection: requests go out together, numbered from 0, and answers come as they come."""
+
+    def __init__(self, test, port):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=PATIENCE)
+        self.asked = 0
+        test.addCleanup(self.socket.close)
+
+    def ask(self, *requests):
+        frames = []
+        for unit, pdu in requests:
+            frames.append(struct.pack(">HHHB", self.asked, 0, len(pdu) + 1, unit) + pdu)
+            self.asked += 1
+        self.socket.sendall(b"".join(frames))
+
+    def receive(self, size):
+        data = b""
+        while len(data) < size:
+            piece = self.socket.recv(size - len(data))
+            if not piece:
+                raise AssertionError(f"closed after {data.hex(' ')}")
+            data += piece
+        return data
+
+    def answers(self, count):
+        """Transaction id and PDU of each."""
+        found = []
+        for _ in range(count):
+            transaction, _, length, _ = struct.unpack(">HHHB", self.receive(7))
+            found.append((transaction, self.receive(length - 1)))
+        return found
 
 
 class ForwardingTest(InteropTest):
@@ -129,6 +171,67 @@ class ForwardingTest(InteropTest):
         self.watch.expect("one.low", quality="comm error")
         self.refused(0x0A, client.holding, 50)
         self.assertEqual(self.gateway.client(1).holding(100), [100])  # the PLC keeps its value
+
+    def test_requests_to_other_places_do_not_wait(self):
+        self.start()
+        pipeline = Pipeline(self, self.gateway.port)
+        # A unit that nobody has, a station, the PLC, a line without port, nowhere.
+        pipeline.ask(read_holding(13, 0), read_holding(11, 50), read_holding(1, 100), read_holding(14, 0),
+                     read_holding(15, 0))
+        answers = pipeline.answers(5)
+        self.assertEqual(dict(answers), {0: b"\x83\x0b", 1: b"\x03\x02\x00\x01", 2: b"\x03\x02\x00\x64",
+                                         3: b"\x83\x0a", 4: b"\x83\x0a"})
+        self.assertEqual({number for number, _ in answers[:3]}, {2, 3, 4})
+
+    def test_requests_to_one_station_keep_their_order(self):
+        self.start()
+        pipeline = Pipeline(self, self.gateway.port)
+        for turn in range(5):
+            # Both stations get writes and reads in turn: each read finds what was written before it.
+            pipeline.ask(*[request for value in range(4) for unit in (11, 12)
+                           for request in (write_register(unit, 70, 100 * turn + value), read_holding(unit, 70))])
+            answers = dict(pipeline.answers(16))
+            first = 16 * turn
+            for value in range(4):
+                written = 100 * turn + value
+                for station in (0, 2):
+                    number = first + 4 * value + station
+                    self.assertEqual(answers[number], write_register(0, 70, written)[1])
+                    self.assertEqual(answers[number + 1], struct.pack(">BBH", 3, 2, written))
+        self.expect_good_all_along()
+
+    def test_max_outstanding(self):
+        self.start(max_outstanding=2)
+        pipeline = Pipeline(self, self.gateway.port)
+        pipeline.ask(*[read_holding(13, 0)] * 3, read_holding(1, 100), read_holding(13, 0), read_holding(1, 100))
+        # The PLC's answers wait behind the request that is not under way yet.
+        self.assertEqual([number for number, _ in pipeline.answers(6)], [0, 1, 3, 2, 5, 4])
+
+    def leave_with_five_requests(self, most):
+        self.start(max_outstanding=most)
+        pipelines = [Pipeline(self, self.gateway.port) for _ in range(2)]
+        for each in pipelines:
+            each.ask(read_holding(13, 0))  # the line is busy for two time-outs
+        left = Pipeline(self, self.gateway.port)
+        left.ask(*[write_register(12, 70 + i, 1) for i in range(5)])
+        left.socket.close()
+        for each in pipelines:
+            self.assertEqual(each.answers(1), [(0, b"\x83\x0b")])
+        self.assertEqual(self.gateway.client(12).holding(70, 5), [0] * 5)
+
+    def test_a_client_that_left_does_not_use_the_line(self):
+        self.leave_with_five_requests(16)
+
+    def test_a_client_that_left_while_it_was_not_read_from_does_not_use_the_line(self):
+        self.leave_with_five_requests(2)
+
+    def test_a_client_that_half_closes_gets_what_the_plc_answered(self):
+        self.start()
+        pipeline = Pipeline(self, self.gateway.port)
+        pipeline.ask(*[read_holding(1, 100)] * 200)
+        pipeline.socket.shutdown(socket.SHUT_WR)
+        self.assertEqual(pipeline.answers(200), [(i, b"\x03\x02\x00\x64") for i in range(200)])
+        self.assertEqual(pipeline.socket.recv(1), b"")
 
     def test_client_that_leaves_before_its_answer(self):
         self.start()

@@ -267,10 +267,20 @@ class SerialServerTest(InteropTest):
     def test_silence_of_1_75_ms_before_answers_above_19200(self):
         self.silence_before_answers(115200, 0.00175)
 
+    def test_settings_show_in_the_plc(self):
+        self.start_raw()
+        door = self.gateway.client()
+        self.assertEqual((door.holding(8400, 2), door.holding(8405), door.holding(8414), door.holding(8419)),
+                         ([0x0091, 0x11], [0x0091], [5], [9]))
+        self.assertEqual(self.plc_command("power-cycle", "main")[0], 0)
+        self.assertEqual((door.holding(8400, 2), door.holding(8414)), ([0x0091, 0x11], [5]))
+
     def test_port_that_comes_later(self):
         self.start_gateway(self.configuration(lines=[
             {"name": "bus", "device": str(self.folder / "line"), "parity": "none", "role": "server",
              "units": [{"unit": 5, "plc": "main", "channel": 1}]}]))
+        door = self.programs[0].client()
+        wait_for("error 201 of channel 1", lambda: door.holding(D8402, 2) == [201, 1])
         raw = self.raw = RawClient(self)
         wait_for("the line is open", lambda: "is open" in self.programs[0].log)
         time.sleep(0.1)

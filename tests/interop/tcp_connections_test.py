@@ -187,6 +187,18 @@ class TcpConnectionsTest(InteropTest):
             bystander.write_register(0, value)
             self.assertEqual(bystander.holding(0), [value])
 
+    def test_request_that_comes_too_slowly(self):
+        self.start()
+        connection = self.connect()
+        begun = time.monotonic()
+        with self.assertRaises(ConnectionError):
+            for byte in adu(1, b"\x10" + bytes(252)):  # would take a minute
+                connection.send(bytes([byte]))
+                time.sleep(0.25)
+        self.assertGreater(time.monotonic() - begun, 4.5)
+        self.assertLess(time.monotonic() - begun, 9)
+        self.assertIn("is silent for too long", self.gateway.log)
+
     def test_idle_timeout(self):
         configuration = self.configuration()
         configuration["modbus_tcp"][0]["idle_timeout_s"] = 1

@@ -30,6 +30,7 @@ class FakeServer(threading.Thread):
         self.connections = 0
         self.strange = lambda answer: b""  # what is sent before an answer
         self.ended = False
+        self.deaf_on = ()      # connections, counted from 1, on which nothing is answered
         test.addCleanup(self.end)
 
     def run(self):
@@ -53,6 +54,8 @@ class FakeServer(threading.Thread):
                 received += heard
             else:
                 self.answer_all(client, kept)  # no more will come
+            if self.connections in self.deaf_on:
+                received = b""
             while len(received) >= 12:
                 kept.append(received[:12])
                 received = received[12:]
@@ -129,6 +132,14 @@ class TcpLineTest(InteropTest):
         self.assertEqual(self.client.holding(100, 2), [1234, 5])
         self.start_side_door(device.tcp_port)
         self.expect_values([4321, 5])
+
+    def test_connection_on_which_nothing_comes_any_more(self):
+        server = FakeServer(self)
+        server.deaf_on = (1,)
+        server.start()
+        self.start(server.port)
+        self.expect_values([10, 11])
+        self.assertEqual(server.connections, 2)
 
     def test_server_that_comes_later(self):
         port = self.free_port()

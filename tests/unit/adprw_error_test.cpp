@@ -207,12 +207,15 @@ TEST_CASE("adprw errors: an LS that is a server by its format asks nothing")
 TEST_CASE("adprw errors: the next command clears M8402, M8408, M8409, M8029 and D8408, and nothing else")
 {
     auto f = adprw_fixture::always(question);
+    f.set("D8412", 2);
     REQUIRE_FALSE(f.next().empty());
-    f.runner.attempt_started(*f.question, 0);
     f.check({{"M8408", 0}, {"D8408", 0}});
-    f.runner.attempt_started(*f.question, 1);
+    f.no_answer();
     f.check({{"M8408", 1}, {"D8408", 1}, {"M8409", 0}, {"M8402", 0}, {"M8401", 1}, {"M8029", 0}});
-    f.runner.attempt_started(*f.question, 2);
+    f.no_answer();
+    f.check({{"M8408", 1}, {"D8408", 2}, {"M8409", 0}, {"M8402", 0}});
+    f.no_answer();  // the last one
+    f.check({{"M8408", 1}, {"D8408", 2}, {"M8409", 0}, {"M8402", 0}});
     f.fail(modbus_error::timeout);
     f.check({{"M8408", 1}, {"D8408", 2}, {"M8409", 1}, {"M8402", 1}, {"M8029", 1}});
 
@@ -236,9 +239,9 @@ TEST_CASE("adprw errors: the next command clears M8402, M8408, M8409, M8029 and 
 TEST_CASE("adprw errors: a retry that is answered leaves M8408 and no error")
 {
     auto f = adprw_fixture::always(question);
+    f.set("D8412", 2);
     REQUIRE_FALSE(f.next().empty());
-    f.runner.attempt_started(*f.question, 0);
-    f.runner.attempt_started(*f.question, 1);
+    f.no_answer();
     f.answer({0x03, 0x02, 0x00, 0x07});
     f.check({{"M8408", 1}, {"D8408", 1}, {"M8402", 0}, {"M8403", 0}, {"M8409", 0}, {"D8402", 0}, {"M8029", 1}});
 }
@@ -283,8 +286,10 @@ TEST_CASE("adprw errors: a step above 32767 shows as it is in 16 bits")
 TEST_CASE("adprw errors: STOP to RUN clears them all, but D8063")
 {
     adprw_fixture f("LD M8000\nADPRW K300 H3 H0 K1 D0\nADPRW H5 H3 H0 K1 D100\n");
+    f.set("D8412", 1);
     f.next();
-    f.runner.attempt_started(*f.question, 1);
+    f.no_answer();
+    f.no_answer();
     f.fail(modbus_error::timeout);
     f.check({{"M8067", 1}, {"D8067", 6706}, {"M8403", 1}, {"M8408", 1}});
     f.plc.stop();
@@ -331,8 +336,8 @@ TEST_CASE("adprw errors: what a client's failure stands for")
     };
     CHECK(code(errc::timed_out) == plc::adprw_failure{modbus_error::timeout});
     CHECK(code(errc::bad_checksum) == plc::adprw_failure{modbus_error::checksum});
-    CHECK(code(errc::bad_header) == plc::adprw_failure{modbus_error::length_mismatch});
-    CHECK(code(errc::incomplete) == plc::adprw_failure{modbus_error::length_mismatch});
+    CHECK(code(errc::bad_header) == plc::adprw_failure{modbus_error::checksum});
+    CHECK(code(errc::incomplete) == plc::adprw_failure{modbus_error::checksum});  // what came has no CRC that fits
     CHECK(code(errc::too_short) == plc::adprw_failure{modbus_error::checksum});
     CHECK(code(errc::overlong) == plc::adprw_failure{modbus_error::character_overrun});
     CHECK(code(errc::bad_character) == plc::adprw_failure{modbus_error::unconvertible_character});

@@ -78,6 +78,13 @@ public:
     }
     void fail(plc::modbus_error why, std::uint8_t received = 0) { finish(plc::adprw_failure{why, received}); }
 
+    // One attempt ended so; the question is still out.
+    void no_answer(errc why = errc::timed_out)
+    {
+        REQUIRE(question.has_value());
+        runner.attempt_failed(*question, {why, {}});
+    }
+
     plc::simulated_plc plc;
     plc::adprw_runner runner;
     time_point now{std::chrono::seconds(1000)};

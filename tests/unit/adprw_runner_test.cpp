@@ -259,6 +259,20 @@ TEST_CASE("adprw runner: timing from D8409 to D8412")
     CHECK(ls.question->timing == plc::adprw_timing{500ms, 400ms, 0ms, 2});
 }
 
+TEST_CASE("adprw runner: the second end character of ASCII is D8406, as the program has changed it")
+{
+    auto f = adprw_fixture::always("ADPRW K1 H3 H0 K1 D0");
+    REQUIRE(station(f) == 1);
+    CHECK(f.question->timing.delimiter == '\n');
+    succeed(f);
+    f.set("D8406", '$');
+    REQUIRE(station(f) == 1);
+    CHECK(f.question->timing.delimiter == '$');
+    auto small = adprw_fixture::always("ADPRW K1 H3 H0 K1 D0", "FX3G");  // has no D8406
+    REQUIRE(station(small) == 1);
+    CHECK(small.question->timing.delimiter == '\n');
+}
+
 TEST_CASE("adprw runner: a refused instruction does not stop the others, and rests a while")
 {
     adprw_fixture f("LD M8000\nADPRW K300 H3 H0 K1 D0\nADPRW K2 H3 H0 K1 D0\n");
@@ -311,7 +325,7 @@ TEST_CASE("adprw runner: STOP forgets the question that is out, RUN begins the p
     const auto out = f.question;
     f.plc.stop();
     CHECK(f.runner.wake_at(f.now) == time_point::max());
-    f.runner.attempt_started(*out, 1);
+    f.runner.attempt_failed(*out, {errc::timed_out, {}});
     f.answer({0x03, 0x02, 0x00, 0x07});
     f.check({{"D0", 0}, {"M8401", 0}, {"M8029", 0}, {"M8408", 0}});
     CHECK(station(f) == nobody);

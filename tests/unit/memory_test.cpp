@@ -173,4 +173,52 @@ TEST_CASE("memory: runs of neighbouring areas stay apart")
     CHECK(m.take_changes() == changes{{at(m, "D0").area, 16 * 7999, 16}, {at(m, "D8000").area, 0, 16}});
 }
 
+TEST_CASE("memory: bits that fill up a register of bit devices stay 0")
+{
+    struct {
+        const char* device;
+        std::uint16_t left;  // of FFFF
+    } const rows[] = {
+        {"Y0", 0x3FFF},     // Y0-Y15 are 14 points
+        {"TS128", 0x03FF},  // TS0-TS137
+        {"CS200", 0xFFFF},  // CS200-CS255 begin inside a register
+        {"CS240", 0xFFFF}, {"X0", 0xFFFF}, {"M1520", 0xFFFF},
+    };
+    memory m(*find_model("FX3S"));
+    for (const auto& row : rows) {
+        CAPTURE(row.device);
+        m.set_word(at(m, row.device), 0xFFFF);
+        CHECK(m.word(at(m, row.device)) == row.left);
+    }
+    const place fill{at(m, "CS200").area, 0};  // where CS192 to CS199 are in other models
+    m.set_word(fill, 0xFFFF);
+    CHECK(m.word(fill) == 0xFF00);
+    m.set_bit({fill.area, 7}, true);
+    CHECK(m.word(fill) == 0xFF00);
+}
+
+TEST_CASE("memory: protected devices keep what the PLC shows in them")
+{
+    memory m(fx3u);
+    m.set_protected(at(m, "D8405"), 16, true);
+    m.set_protected(at(m, "M8401"), 1, true);
+    m.show_word(at(m, "D8405"), 0x1097);
+    m.show_bit(at(m, "M8401"), true);
+    m.take_changes();
+    m.set_word(at(m, "D8405"), 1);
+    m.set_word(at(m, "M8400"), 0);
+    m.set_word(at(m, "M8393"), 0);  // a run that begins inside a register
+    m.set_bit(at(m, "M8401"), false);
+    CHECK(m.word(at(m, "D8405")) == 0x1097);
+    CHECK(m.bit(at(m, "M8401")));
+    CHECK_FALSE(m.has_changes());
+    m.set_word(at(m, "M8400"), 0xFFFF);  // the neighbours are free
+    CHECK(m.word(at(m, "M8400")) == 0xFFFF);
+    m.show_bit(at(m, "M8401"), false);
+    CHECK(m.word(at(m, "M8400")) == 0xFFFD);
+    m.set_protected(at(m, "D8405"), 16, false);
+    m.set_word(at(m, "D8405"), 1);
+    CHECK(m.word(at(m, "D8405")) == 1);
+}
+
 TEST_SUITE_END();

@@ -33,6 +33,17 @@ TEST_CASE("modbus line: a station that was told its delimiter is spoken to with 
     CHECK(f.ask(reading, modbus::unit_id{6}).timing.delimiter == '\n');
 }
 
+TEST_CASE("modbus line: who asks may bring a delimiter, but what the station was told goes before it")
+{
+    told_pump f;
+    modbus::serial_options own;
+    own.delimiter = '#';
+    f.line.forward(modbus::unit_id{6}, reading, own);
+    CHECK(f.next().timing.delimiter == '#');
+    f.line.forward(modbus::unit_id{5}, reading, own);
+    CHECK(f.next().timing.delimiter == '$');
+}
+
 TEST_CASE("modbus line: a refused delimiter is not used")
 {
     line_fixture f;

@@ -164,4 +164,27 @@ TEST_CASE("channel settings: a model refuses what it does not have")
     CHECK_FALSE(decode(ls22, ls22.channels[2], 0x8081, 0)->enabled);  // no MODBUS: its role does not matter
 }
 
+TEST_CASE("channel settings: encoded ones decode to the same")
+{
+    for (const baud_row& row : baud_rows)
+        for (const character_row& characters : character_rows)
+            for (const unsigned protocol : {0x001U, 0x011U, 0x101U, 0x111U}) {
+                const auto fx3 = decode_fx3(word(0x1000 | row.code << 4 | characters.bits), word(protocol));
+                if (fx3) {
+                    CHECK(encode_fx3_format(*fx3) == (0x1000 | row.code << 4 | characters.bits));
+                    CHECK(encode_fx3_protocol(*fx3) == protocol);
+                }
+                for (const unsigned high : {0x4000U, 0x5000U, 0x6000U, 0xC000U}) {
+                    const auto ls = decode_ls(word(high | row.code << 4 | characters.bits));
+                    if (ls)
+                        CHECK(encode_ls(*ls) == (high | row.code << 4 | characters.bits));
+                }
+            }
+    CHECK(encode_fx3_format(*decode_fx3(0x0097, fx3_client)) == 0x0097);
+    channel_settings odd{.enabled = true};
+    odd.format.baud_rate = 14400;
+    CHECK_FALSE(encode_fx3_format(odd).has_value());
+    CHECK_FALSE(encode_ls(odd).has_value());
+}
+
 TEST_SUITE_END();

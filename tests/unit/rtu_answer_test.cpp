@@ -128,6 +128,8 @@ TEST_CASE("rtu answer: why there was none")
     for (std::size_t size = 1; size < registers.adu.size(); ++size)
         CHECK(failure_of(registers, bytes(registers.adu).first(size)) == errc::incomplete);
     CHECK(failure_of(registers, buffer(20, 0x55)) == errc::bad_checksum);
+    CHECK(failure_of(registers, buffer(256, 0x55)) == errc::bad_checksum);
+    CHECK(failure_of(registers, buffer(257, 0x55)) == errc::overlong);
 }
 
 TEST_CASE("rtu answer: a line that babbles does not fill the memory nor hide the answer")

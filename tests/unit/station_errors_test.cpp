@@ -77,6 +77,23 @@ TEST_CASE("station: parity, framing and receive overrun are error 204")
     CHECK(b.log() == buffer{0x82});
 }
 
+TEST_CASE("station: without its port it shows error 201 with the number of the channel")
+{
+    for (const unsigned channel : {1U, 2U}) {
+        station_bench b("", plc::fx3u, channel);
+        b.station.port_absent();
+        const auto number = static_cast<std::uint16_t>(channel);
+        const std::uint16_t serial = channel == 1 ? 6321 : 3821;
+        CHECK(errors_of(b, channel) == shown{201, number, serial, true, true, true});
+        CHECK(errors_of(b, 3 - channel) == nothing);
+        CHECK(b.counters() == std::vector<std::uint16_t>(9));
+        CHECK(b.log().empty());
+    }
+    station_bench refused("K248 D8414");
+    refused.station.port_absent();
+    CHECK(refused.word("D8402") == 202);
+}
+
 TEST_CASE("station: M8402 is of the current message, M8403, M8063 and the code stay (6.3)")
 {
     station_bench b;

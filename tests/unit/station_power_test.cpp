@@ -1,4 +1,5 @@
 // Power-on, RUN and STOP: what the PLC shows of its setup, and what each clears. FX3 manual chapter 6 and 12.6.
+#include "bridge/services/modbus_service.hpp"
 #include "tests/unit/station_bench.hpp"
 
 TEST_SUITE_BEGIN("plc");
@@ -122,11 +123,15 @@ TEST_CASE("plc: the matrix of special clear conditions, 6.1 and 6.3")
             const bool is_flag = name[0] == 'M';
             const std::uint16_t initially = is_flag ? p.bit(name.c_str()) : p.word(name.c_str());
             const auto value = [&] { return is_flag ? std::uint16_t{p.bit(name.c_str())} : p.word(name.c_str()); };
+            const std::uint32_t number = parse_device(name)->number;
             if (is_flag)
-                p.set_bit(name.c_str(), true);
+                p.show_flag(number, true);
+            else if (number >= 8000)
+                p.show_register(number, 77);
             else
                 p.set(name.c_str(), 77);
             const std::uint16_t marked = value();
+            CHECK(marked != initially);
             p.run();  // in RUN already
             p.stop();
             CHECK(value() == marked);
@@ -196,6 +201,163 @@ TEST_CASE("plc: a line of the configuration shows as MODBUS, over power cycles t
     CHECK(p.word("D8419") == 0);
     CHECK(p.channel_at(2).as == role::server);
     CHECK_THROWS_AS(p.attach(3, role::server), std::out_of_range);
+}
+
+// Without a setup program the line of the configuration stands in the registers where an engineer looks (12.5).
+TEST_CASE("plc: a line of the configuration shows in D8400, D8401, D8405 and D8414 of its channel")
+{
+    const character_format c9600{9600, 8, parity::none, 1};
+    const character_format c19200{19200, 8, parity::even, 1};
+    struct {
+        const char* name;
+        std::string moves;
+        unsigned channel;
+        channel_line line;
+        std::uint16_t format, protocol, display, station;
+    } const rows[] = {
+        {"server", "", 1, {role::server, 17, framing::rtu, true, c19200}, 0x1097, 0x11, 0x1097, 17},
+        {"on channel 2", "", 2, {role::server, 247, framing::rtu, false, c9600}, 0x0081, 0x11, 0x0081, 247},
+        {"ASCII", "", 2, {role::server, 1, framing::ascii, false, c9600}, 0x0081, 0x111, 0x0081, 1},
+        {"client", "", 1, {role::client, 0, framing::rtu, false, c9600}, 0x0081, 0x1, 0x0081, 0},
+        {"over TCP", "", 1, {.as = role::client}, 0, 0x1, 0, 0},
+        {"the program goes before it",
+         server_1,
+         1,
+         {role::server, 17, framing::rtu, false, c9600},
+         0x1097,
+         0x11,
+         0x0081,
+         1},
+        {"a refused station", "K248 D8414", 1, {role::server, 17, framing::rtu, false, c9600}, 0, 0, 0, 0},
+        {"a rate without code",
+         "",
+         1,
+         {role::server, 5, framing::rtu, false, character_format{14400, 8, parity::none, 1}},
+         0,
+         0x11,
+         0,
+         5},
+    };
+    for (const auto& row : rows)
+        for (const bool power : {false, true}) {
+            CAPTURE(row.name);
+            CAPTURE(power);
+            shown_plc p(row.moves);
+            p.attach(row.channel, row.line);
+            if (power)
+                p.power_cycle();
+            const bool first = row.channel == 1;
+            CHECK(p.word(first ? "D8400" : "D8420") == row.format);
+            CHECK(p.word(first ? "D8401" : "D8421") == row.protocol);
+            CHECK(p.word(first ? "D8405" : "D8425") == row.display);
+            CHECK(p.word(first ? "D8414" : "D8434") == row.station);
+            CHECK(p.word(first ? "D8420" : "D8400") == 0);
+            CHECK(p.word(first ? "D8434" : "D8414") == 0);
+        }
+    shown_plc ls("", ls22);
+    ls.attach(1, {role::client, 0, framing::rtu, false, c9600});
+    ls.attach(3, {role::server, 9, framing::ascii, false, c19200});
+    CHECK(ls.word("D8400") == 0xC081);
+    CHECK(ls.word("D8413") == 0x5097);
+    CHECK(ls.word("D8437") == 9);
+    CHECK(ls.word("D8420") == 0);
+}
+
+TEST_CASE("plc: what is marked R in 6.1 and 6.3 is the PLC's own, what is marked R, W takes a client's value")
+{
+    struct {
+        const char* one;
+        const char* two;
+        bool writable;
+    } const rows[] = {
+        {"D8402", "D8422", true},  {"D8403", "D8423", true},  {"D8404", "D8424", true},  {"D8405", "D8425", false},
+        {"D8407", "D8427", false}, {"D8408", "D8428", false}, {"D8409", "D8429", true},  {"D8410", "D8430", true},
+        {"D8411", "D8431", true},  {"D8419", "D8439", false}, {"D8063", "D8438", true},  {"M8401", "M8421", false},
+        {"M8402", "M8422", true},  {"M8403", "M8423", true},  {"M8063", "M8438", true},  {"M8404", "M8424", false},
+        {"M8408", "M8428", false}, {"M8409", "M8429", false}, {"M8029", "M8029", false},
+    };
+    for (const auto& row : rows)
+        for (const char* name : {row.one, row.two}) {
+            CAPTURE(name);
+            shown_plc p(server_1);
+            const bool is_flag = name[0] == 'M';
+            const auto value = [&] { return is_flag ? std::uint16_t{p.bit(name)} : p.word(name); };
+            const std::uint16_t before = value();
+            const auto at = is_flag ? 0x1E00 + parse_device(name)->number - 8000 : parse_device(name)->number;
+            const buffer address{static_cast<std::uint8_t>(at >> 8), static_cast<std::uint8_t>(at)};
+            const buffer pdu = is_flag ? buffer{0x05, address[0], address[1], 0xFF, 0x00}
+                                       : buffer{0x06, address[0], address[1], 0x00, 0x4D};
+            CHECK(serve_pdu(p, pdu) == pdu);  // the address exists in the map of 9.3, so it is no error
+            CHECK(value() == (row.writable ? (is_flag ? 1 : 77) : before));
+        }
+    shown_plc ls("", ls22);  // LS manual 4-1: R, W
+    ls.set("D8407", 5);
+    CHECK(ls.word("D8407") == 5);
+    shown_plc server(server_1);
+    server.set("D8406", 0x23);
+    CHECK(server.word("D8406") == 10);  // "read only in a slave"
+    shown_plc client("H1081 D8400, H101 D8401");
+    client.set("D8406", 0x23);
+    CHECK(client.word("D8406") == 0x23);
+}
+
+TEST_CASE("plc: every setting of the program stands in its register, on both channels (12.5)")
+{
+    struct {
+        const char* name;
+        const char* value;
+        std::uint16_t number;
+    } const rows[] = {
+        {"D8400", "H1081", 0x1081}, {"D8401", "H1", 1},     {"D8409", "K2000", 2000}, {"D8410", "K300", 300},
+        {"D8411", "K10", 10},       {"D8412", "K3", 3},     {"D8414", "K247", 247},   {"D8415", "H101", 0x101},
+        {"D8416", "K500", 500},     {"D8420", "H91", 0x91}, {"D8429", "K7", 7},       {"D8430", "K8", 8},
+        {"D8431", "K9", 9},         {"D8432", "K20", 20},   {"D8434", "K1", 1},       {"D8435", "H1", 1},
+        {"D8436", "K900", 900},     {"D8421", "H0", 0},
+    };
+    std::string moves;
+    for (const auto& row : rows)
+        moves += std::string(moves.empty() ? "" : ", ") + row.value + " " + row.name;
+    const shown_plc p(moves);
+    CHECK(p.faults().empty());
+    for (const auto& row : rows) {
+        CAPTURE(row.name);
+        CHECK(p.word(row.name) == row.number);
+    }
+}
+
+TEST_CASE("plc: D8470 to D8485 allocate nothing on models without the user's allocation")
+{
+    for (const plc::model* m : all_models()) {
+        CAPTURE(std::string(m->name));
+        const shown_plc p("H5002 D8470, K0 D8471", *m);
+        const auto coil_0 = p.map().find(p.memory(), modbus::table::coils, modbus::address{0}, 1)->front().at;
+        const bool fx3u_kind = m->name == "FX3U" || m->name == "FX3UC";
+        CHECK(coil_0 == p.at(fx3u_kind ? "X0" : "M0"));
+        CHECK(p.faults().empty());
+    }
+}
+
+TEST_CASE("plc: settings written without LD M8411 change nothing, and power-on brings the program's back")
+{
+    shown_plc p(std::string(server_1) + "H1 D8415, K100 D8416, H5002 D8470, K0 D8471");
+    for (const char* each : {"D8400", "D8401", "D8412", "D8414", "D8415", "D8416", "D8470", "D8471"})
+        p.set(each, 3);
+    CHECK(p.word("D8405") == 0x1097);
+    CHECK(p.channel_at(1).as == role::server);
+    CHECK(p.channel_at(1).status.counters == p.at("D100"));
+    const auto coil_0 = [&] {
+        return p.map().find(p.memory(), modbus::table::coils, modbus::address{0}, 1)->front().at;
+    };
+    CHECK(coil_0() == p.at("X0"));
+    p.power_cycle();
+    CHECK(p.word("D8400") == 0x1097);
+    CHECK(p.word("D8401") == 0x11);
+    CHECK(p.word("D8412") == 0);
+    CHECK(p.word("D8414") == 1);
+    CHECK(p.word("D8415") == 1);
+    CHECK(p.word("D8416") == 100);
+    CHECK(p.word("D8470") == 0x5002);
+    CHECK(coil_0() == p.at("X0"));
 }
 
 TEST_CASE("plc: error 203, two channels set to MODBUS")
