@@ -33,6 +33,9 @@ public:
     // them.
     virtual std::uint64_t take_bit_errors() { return 0; }
 
+    // Characters that the port lost since it exists; nothing where that is not known.
+    virtual std::optional<std::uint64_t> overruns() { return std::nullopt; }
+
     // A question went without an answer. A device server or MODBUS TCP server that has lost its mind, or its power,
     // may hold a connection on which nothing comes any more: then it is deaf, and to be closed and opened again.
     virtual void missed_answer() {}
@@ -48,5 +51,6 @@ std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const l
 // Of the serial line, also of that behind a device server.
 character_format format_of(const line_config& line);
 modbus::framing framing_of(const line_config& line);
+local_echo echo_of(const line_config& line);
 
 }  // namespace plcgw

@@ -126,4 +126,9 @@ asio::awaitable<boost::system::result<std::size_t>> serial_connection::read(time
     co_return size;
 }
 
+std::optional<std::uint64_t> serial_connection::overruns()
+{
+    return port_.is_open() ? overruns_of(port_.native_handle()) : std::nullopt;
+}
+
 }  // namespace plcgw

@@ -21,6 +21,7 @@ public:
     asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline, asio::mutable_buffer into) override;
     void interrupt() override { guard_.interrupt(); }
     std::uint64_t take_bit_errors() override;
+    std::optional<std::uint64_t> overruns() override;
     std::string absence() const override { return "port absent"; }
 
 private:

@@ -12,12 +12,15 @@
 namespace plcgw {
 
 // The open port's descriptor, or why it could not be opened. On success `warning` may say what the driver could not do.
-// A pty keeps no parity and knows no RS-485.
+// A pty keeps no parity and knows no RS-485. On a general-purpose line what is read is marked: marked_characters.hpp.
 boost::system::result<int> open_serial_port(const line_config& line, std::string& warning);
 
 // Characters with a wrong parity or stop bit and overruns, as the driver counts them; nothing where it does not, on a
 // pty for one.
 std::optional<std::uint64_t> bit_errors_of(int fd);
+
+// Characters that were lost because nobody took them from the port in time; nothing where the driver does not count.
+std::optional<std::uint64_t> overruns_of(int fd);
 
 // Before closing: the kernel would wait for output that a hung adapter does not take, up to 30 s.
 void forget_output(int fd);

@@ -22,6 +22,11 @@ public:
         case errc::collision: return "own request came back changed";
         case errc::line_not_quiet: return "line not quiet";
         case errc::port_absent: return "port absent";
+        case errc::bad_parity: return "parity error";
+        case errc::bad_stop_bit: return "framing error";
+        case errc::overrun: return "characters lost, the port was read too late";
+        case errc::restarted: return "a new start code inside the message";
+        case errc::bad_count: return "number of bytes cannot be sent";
         }
         return "unknown error";
     }

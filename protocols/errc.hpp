@@ -20,6 +20,11 @@ enum class errc {
     collision,          // our own bytes came back from the line changed
     line_not_quiet,     // somebody else kept talking when it was our turn
     port_absent,        // the serial port is not there, or was unplugged during the exchange
+    bad_parity,         // a character came with the wrong parity
+    bad_stop_bit,       // a character came without its stop bit (framing error, break)
+    overrun,            // characters came faster than the port was read
+    restarted,          // a start code came in the middle of a message and begins it anew
+    bad_count,          // as many bytes as cannot be sent at once
 };
 
 const boost::system::error_category& protocol_category() noexcept;

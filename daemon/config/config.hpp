@@ -3,6 +3,7 @@
 
 #include "bridge/dds/settings.hpp"
 #include "bridge/routes/route.hpp"
+#include "daemon/config/message_config.hpp"
 #include "protocols/serial_timing.hpp"
 
 #include <chrono>
@@ -48,7 +49,7 @@ struct unit_config {
     unsigned channel = 1;    // of the PLC, on a serial line: whose special devices show the communication
 };
 
-enum class line_protocol : std::uint8_t { modbus_rtu, modbus_ascii, modbus_tcp };
+enum class line_protocol : std::uint8_t { modbus_rtu, modbus_ascii, modbus_tcp, general_purpose };
 enum class line_role : std::uint8_t { client, server };
 
 struct line_config {
@@ -71,7 +72,8 @@ struct line_config {
     microseconds gap{0};  // 0 = 3.5 characters; 1.75 ms above 19200 bit/s
     milliseconds silence{20};
     local_echo echo = local_echo::automatic;
-    unsigned max_outstanding = 1;  // of MODBUS TCP
+    unsigned max_outstanding = 1;     // of MODBUS TCP
+    general_purpose_config messages;  // of a general-purpose line
 };
 
 struct station_config {

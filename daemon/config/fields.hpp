@@ -3,35 +3,14 @@
 #pragma once
 
 #include "daemon/config/config.hpp"
-
-#include <cstdint>
-#include <string_view>
-#include <utility>
+#include "daemon/config/message_fields.hpp"
 
 namespace plcgw::config {
 
-struct range {
-    std::int64_t least;
-    std::int64_t most;
-};
-
-// A name is a DDS key and stands in logs: 1 to `most` bytes. Any other text may be empty.
-struct text {
-    std::size_t least = 0;
-    std::size_t most = 255;
-};
-
-inline constexpr text name_rule{1, 64};
-
-template <class Enum>
-struct choice {
-    std::string_view name;
-    Enum value;
-};
-
 inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu},
                                                            {"modbus-ascii", line_protocol::modbus_ascii},
-                                                           {"modbus-tcp", line_protocol::modbus_tcp}};
+                                                           {"modbus-tcp", line_protocol::modbus_tcp},
+                                                           {"general-purpose", line_protocol::general_purpose}};
 inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
 inline constexpr choice<server_framing> server_framings[] = {
     {"tcp", server_framing::tcp}, {"rtu", server_framing::rtu}, {"ascii", server_framing::ascii}};
@@ -99,7 +78,7 @@ void describe(Visitor& v, line_config& c)
                text{});
     v.optional("port", c.port, "TCP port of the host", range{1, 65'535});
     v.optional("protocol", c.protocol,
-               "What is spoken on the line; with a host, modbus-rtu and modbus-ascii mean RTU or ASCII over TCP",
+               "What is spoken on the line; with a host, all but modbus-tcp mean a serial device server",
                line_protocols);
     v.optional("role", c.role, "client: the gateway asks the stations; server: it answers, for the units below",
                line_roles);
@@ -122,6 +101,7 @@ void describe(Visitor& v, line_config& c)
     v.optional("local_echo", c.echo, "Whether the adapter returns what it sends; auto finds out at the first read",
                local_echoes);
     v.optional("max_outstanding", c.max_outstanding, "Requests under way at a time, modbus-tcp only", range{1, 64});
+    v.optional("general_purpose", c.messages, "Of a general-purpose line: its messages, and what becomes of them");
 }
 
 template <class Visitor>
