@@ -3,6 +3,8 @@
 #include "daemon/serial_connection.hpp"
 #include "daemon/tcp_connection.hpp"
 
+#include <algorithm>
+
 namespace plcgw {
 
 std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const line_config& line)
@@ -15,6 +17,12 @@ std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const l
 character_format format_of(const line_config& line)
 {
     return {line.baud_rate, line.data_bits, line.check, line.stop_bits};
+}
+
+duration silence_of(const line_config& line)
+{
+    constexpr milliseconds least_over_network{50};
+    return line.host.empty() ? line.silence : std::max(line.silence, least_over_network);
 }
 
 modbus::framing framing_of(const line_config& line)

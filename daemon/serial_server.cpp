@@ -6,6 +6,10 @@ namespace {
 using boost::system::error_code;
 using modbus::bus_event;
 
+// From the last byte of a reply to that of its echo: adapters deliver in packets, networks take their time.
+constexpr duration port_delay = std::chrono::milliseconds(100);
+constexpr duration network_delay = std::chrono::seconds(1);
+
 std::vector<modbus::unit_id> units_of(const std::vector<modbus_station>& stations)
 {
     std::vector<modbus::unit_id> units;
@@ -34,7 +38,7 @@ serial_server::serial_server(asio::io_context& loop, line_config config, std::ve
 
 modbus::bus_framer serial_server::make_framer() const
 {
-    return {framing_of(config_), units_of(stations_), config_.silence};
+    return {framing_of(config_), units_of(stations_), silence_of(config_)};
 }
 
 asio::awaitable<void> serial_server::run()
@@ -60,7 +64,7 @@ asio::awaitable<error_code> serial_server::serve()
         const time_point until = in_.deadline();
         const auto size = co_await connection_->read(until, asio::buffer(received_));
         if (size)
-            in_.feed(now(), echo_.feed(bytes(received_).first(*size)));
+            in_.feed(now(), echo_.feed(now(), bytes(received_).first(*size)));
         else if (size.error() != asio::error::timed_out)
             co_return size.error();
         for (;;) {
@@ -115,7 +119,8 @@ asio::awaitable<error_code> serial_server::reply(modbus_station& station, buffer
     const bool like_request = modbus::parse_request(pdu).has_value();
     const modbus::frame content{station.unit(), std::move(pdu)};
     const buffer adu = modbus::encode_adu(framing_of(config_), content, station.delimiter());
-    echo_.sent(adu, like_request);
+    const duration delay = config_.device.empty() ? network_delay : port_delay;
+    echo_.sent(adu, like_request, now() + character_time(format_of(config_), adu.size()) + delay);
     const error_code ec = co_await connection_->write(adu);
     if (!ec)
         station.sent();

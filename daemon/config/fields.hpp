@@ -97,7 +97,8 @@ void describe(Visitor& v, line_config& c)
                range{0, 32'767});
     v.optional("gap_us", c.gap, "Microseconds of silence before a request; 0 = 3.5 characters, never less",
                range{0, 16'382'000});
-    v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged frame", range{1, 1000});
+    v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged frame; at least 50 with a host",
+               range{1, 1000});
     v.optional("local_echo", c.echo, "Whether the adapter returns what it sends; auto finds out at the first read",
                local_echoes);
     v.optional("max_outstanding", c.max_outstanding, "Requests under way at a time, modbus-tcp only", range{1, 64});

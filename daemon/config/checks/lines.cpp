@@ -22,8 +22,8 @@ void check_unit_plc(check_context& c, const std::string& at, const unit_config& 
                                     [&](const plc::channel& each) { return each.number == unit.channel; });
     if (!exists)
         c.complain(at + "/channel", "is a channel that a " + std::string(model->name) + " does not have");
-    if (protocol == line_protocol::modbus_ascii && !model->ascii)
-        c.complain(at + "/plc", "is a " + std::string(model->name) + ", which speaks RTU only, on an ASCII line");
+    if (protocol == line_protocol::modbus_ascii)
+        check_ascii(c, at + "/plc", unit.plc);
 }
 
 // A line goes over a serial port or to a host.
