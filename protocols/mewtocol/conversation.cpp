@@ -3,12 +3,12 @@
 namespace plcgw::mewtocol {
 namespace {
 
-// No answer is longer than the words asked for, or the longest of the others, MG.
+// No answer is longer than the words asked for. Of the others MG has the longest.
 std::size_t longest_text(const command& question)
 {
     constexpr std::size_t others = 1024;
     const auto* read = std::get_if<read_words>(&question);
-    return read == nullptr ? others : std::max(others, 3 + 4 * std::size_t{read->count});
+    return read == nullptr ? others : 3 + 4 * std::size_t{read->count};
 }
 
 }  // namespace
