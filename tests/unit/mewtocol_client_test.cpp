@@ -1,10 +1,5 @@
 // A client's transaction on a line, to the microsecond: what it sends, how long it waits, when it gives up.
-#include "protocols/mewtocol/conversation.hpp"
-#include "protocols/mewtocol/text.hpp"
-#include "protocols/mewtocol/transaction.hpp"
-#include "tests/unit/mewtocol_fake.hpp"
-
-#include <numeric>
+#include "tests/unit/mewtocol_client.hpp"
 
 TEST_SUITE_BEGIN("mewtocol");
 
@@ -14,66 +9,10 @@ using namespace plcgw::test;
 
 namespace {
 
-using client = transaction<conversation>;
-
-const station_id one{1};
 const read_words two_registers{word_area::dt, 0, 2};
 const std::string asked = "%01#RDD000000000154";  // V15
 const std::string answer = "%01$RD05000A0062";
 const response values = words_read{{5, 10}};
-const std::string abort_command = "%01#AB04";
-
-constexpr line_options timing{.response_timeout = 500ms, .retries = 1, .turnaround = 100ms, .silence = 100ms};
-
-duration on_wire(const std::string& characters) { return character_time(timing.format, characters.size() + 1); }
-const duration gap = character_time(timing.format, 1);
-
-client ask(const command& question, station_id station = one, const line_options& options = timing,
-           header head = header::normal)
-{
-    return client(conversation(head, station, question), options, t0, t0);
-}
-
-// It wants this sent now. Tells it that it was.
-bool sends(client& t, time_point now, const std::string& characters)
-{
-    const auto action = t.next(now);
-    const auto* send = std::get_if<client::send>(&action);
-    if (send == nullptr || buffer(send->adu.begin(), send->adu.end()) != with_cr(characters))
-        return false;
-    t.sent(now);
-    return true;
-}
-
-std::optional<time_point> waits(client& t, time_point now)
-{
-    const auto action = t.next(now);
-    const auto* wait = std::get_if<client::wait>(&action);
-    return wait == nullptr ? std::nullopt : std::optional(wait->until);
-}
-
-bool is_done(client& t, time_point now) { return std::holds_alternative<client::done>(t.next(now)); }
-
-std::string checked(std::string characters)
-{
-    append_hex(characters, bcc(characters), 2);
-    return characters;
-}
-
-// A split answer of 60 words, as mewtocol_server_test has it, cut elsewhere and not at words.
-std::vector<std::string> pieces_of_sixty()
-{
-    std::vector<std::uint16_t> words(60);
-    std::iota(words.begin(), words.end(), std::uint16_t{0});
-    std::string data;
-    append_words(data, words);
-    return {checked("%01$RD" + data.substr(0, 101)) + "&", checked("%01" + data.substr(101, 110)) + "&",
-            checked("%01" + data.substr(211))};
-}
-
-const read_words sixty_registers{word_area::dt, 0, 60};
-const std::string asked_sixty = "%01#RDD000000005959";
-const std::string go_on = "%0124&";
 
 }  // namespace
 
@@ -220,87 +159,6 @@ TEST_CASE("mewtocol client: an answer without check is taken, an echo is not")
     REQUIRE(is_done(t, t0 + 50ms));
     CHECK(t.outcome().value() == values);
     CHECK(t.echo_seen());
-}
-
-TEST_CASE("mewtocol client: an answer in several frames is collected, wherever it is cut")
-{
-    client t = ask(sixty_registers);
-    REQUIRE(sends(t, t0, asked_sixty));
-    time_point now = t0 + 50ms;
-    const auto parts = pieces_of_sixty();
-    for (std::size_t i = 0; i < parts.size(); ++i, now += 50ms) {
-        t.feed(now, with_cr(parts[i]));
-        if (i + 1 < parts.size()) {
-            CHECK(waits(t, now) == now + gap);
-            REQUIRE(sends(t, now + gap, go_on));
-            t.feed(now + gap, with_cr(go_on));  // its echo
-            CHECK(waits(t, now + gap) == now + gap + on_wire(go_on) + 500ms);
-        }
-    }
-    REQUIRE(is_done(t, now));
-    const auto& read = std::get<words_read>(t.outcome().value());
-    CHECK(read.values.size() == 60);
-    CHECK(read.values[59] == 59);
-    CHECK(t.response_time() == 50ms - on_wire(asked_sixty));
-    CHECK(t.attempts() == 1);
-}
-
-TEST_CASE("mewtocol client: when a later frame is lost, the rest is aborted and the question repeated")
-{
-    client t = ask(sixty_registers);
-    REQUIRE(sends(t, t0, asked_sixty));
-    const auto parts = pieces_of_sixty();
-    t.feed(t0 + 50ms, with_cr(parts[0]));
-    REQUIRE(sends(t, t0 + 60ms, go_on));
-    const time_point lost = t0 + 60ms + on_wire(go_on) + 500ms;
-    REQUIRE(sends(t, lost, abort_command));
-    const time_point again = lost + on_wire(abort_command) + 100ms;
-    CHECK(waits(t, lost) == again);
-    t.feed(lost + 30ms, with_cr(checked("%01$AB")));  // a station that answers it
-    CHECK(t.stray_bytes() == 9);
-    REQUIRE(sends(t, again, asked_sixty));
-
-    // Once more: the last attempt. The station is told to forget before anybody else asks.
-    t.feed(again + 50ms, with_cr(parts[0]));
-    REQUIRE(sends(t, again + 60ms, go_on));
-    const time_point damaged = again + 100ms;
-    t.feed(damaged, with_cr("%01123400&"));
-    REQUIRE(sends(t, damaged + gap, abort_command));
-    REQUIRE(is_done(t, damaged + gap));
-    CHECK(t.outcome().error() == errc::bad_checksum);
-    CHECK(t.attempts() == 2);
-    CHECK(t.line_free_from() == damaged + gap + on_wire(abort_command) + 100ms);
-}
-
-TEST_CASE("mewtocol client: frames that make no answer together are not believed")
-{
-    const auto parts = pieces_of_sixty();
-    const std::vector<std::string> wrong[] = {
-        {parts[0], parts[2]},            // one is missing
-        {parts[0], parts[0]},            // the first again
-        {parts[0], "%01**&"},            // an empty one
-        {parts[0], parts[1], parts[1]},  // more than asked for
-        {parts[0], checked("%01!43")},   // an error instead: this is an answer
-    };
-    for (const auto& frames : wrong) {
-        line_options options = timing;
-        options.retries = 0;
-        client t = ask(sixty_registers, one, options);
-        REQUIRE(sends(t, t0, asked_sixty));
-        time_point now = t0;
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-            t.feed(now += 50ms, with_cr(frames[i]));
-            if (i + 1 < frames.size())
-                REQUIRE(sends(t, now += 10ms, go_on));
-        }
-        if (&frames != &wrong[0])  // there the station has sent all it had
-            REQUIRE(sends(t, now += 10ms, abort_command));
-        REQUIRE(is_done(t, now));
-        if (&frames == &wrong[4])
-            CHECK(t.outcome().value() == response{error_code::procedure});
-        else
-            CHECK(t.outcome().error() == errc::unexpected_answer);
-    }
 }
 
 TEST_CASE("mewtocol client: nobody answers a global write, the stations get their time")
