@@ -20,8 +20,10 @@ conversation::conversation(header head, station_id station, command question)
 
 bool conversation::is_expressible() const
 {
-    const bool to_somebody =
-        is_server_number(station_) || station_ == station_id::any || station_ == station_id::global;
+    // Whoever asks all stations gets no answer: only what is done without one makes sense.
+    const bool to_all =
+        station_ == station_id::global && (is_write(question_) || std::holds_alternative<abort_transfer>(question_));
+    const bool to_somebody = is_server_number(station_) || station_ == station_id::any || to_all;
     return to_somebody && mewtocol::is_expressible(question_) &&
            encode_command(question_).size() + 1 + frame_overhead <= max_frame_size(head_);
 }
@@ -80,10 +82,9 @@ verdict<response> conversation::hear_text(const frame& f)
         auto refusal = parse_response(question_, f.text);
         if (!refusal)
             return not_the_answer{errc::unexpected_answer};
-        split_ = false;
-        // Somebody's unfinished answer is in the way.
-        refused_ = *refusal == response{error_code::procedure};
-        return std::move(*refusal);
+        const error_code code = std::get<error_code>(*refusal);
+        refused_ = code == error_code::procedure;  // an unfinished answer is in the way
+        return is_passing(code) ? verdict<response>{not_now<response>{code}} : code;
     }
     const bool named = f.text.starts_with('$') && f.text.substr(1, 2) == to_string(code_of(question_));
     if (!split_ && !named)

@@ -70,7 +70,10 @@ verdict conversation::hear_text(const frame& f)
     const bool marked = f.text.starts_with('$');
     if (f.text.starts_with('!') && !f.more) {
         auto refusal = parse_response(question_, f.text, dialect_);
-        return refusal ? verdict{std::move(*refusal)} : damaged_answer{errc::unexpected_answer};
+        if (!refusal)
+            return damaged_answer{errc::unexpected_answer};
+        const error_code code = std::get<error_code>(*refusal);
+        return is_passing(code) ? verdict{mewtocol::not_now<response>{code}} : code;
     }
     // The number is that of our last frame: what does not fit now is no late answer, but a wrong one.
     const std::string_view piece = f.text;

@@ -10,7 +10,8 @@ namespace plcgw::mewtocol {
 template <class Conversation>
 transaction<Conversation>::transaction(Conversation question, const line_options& timing, time_point line_free_from,
                                        time_point now)
-    : conversation_(std::move(question)), timing_(timing), framer_(timing.silence), line_free_from_(line_free_from)
+    : conversation_(std::move(question)), timing_(timing), framer_(timing.silence), line_free_from_(line_free_from),
+      allowed_(timing.retries + 1)
 {
     if (conversation_.is_expressible()) {
         queue(message::question, conversation_.begin(), now);
@@ -144,7 +145,9 @@ void transaction<Conversation>::judge(time_point now, const reception& r)
     if (what_ == message::question)
         response_time_ = std::max(duration{}, now - sent_until_);
     line_free_from_ = now + gap();
-    if (auto* more = std::get_if<ask_on>(&said))
+    if (auto* refusal = std::get_if<not_now<answer_type>>(&said))
+        ask_again(now, std::move(refusal->answer));
+    else if (auto* more = std::get_if<ask_on>(&said))
         queue(message::next_frame, std::move(more->request), now);
     else
         conclude(now, std::move(std::get<answer_type>(said)));
@@ -157,7 +160,7 @@ void transaction<Conversation>::fail_attempt(time_point now, errc why, bool came
     if (!came && unanswered_++ == 0)
         unanswered_since_ = sent_until_;
     line_free_from_ = std::max(heard_ + gap(), now);
-    if (attempts_ > timing_.retries || !conversation_.is_repeatable()) {
+    if (attempts_ >= allowed_ || !conversation_.is_repeatable()) {
         conclude(now, make_error_code(why));
         return;
     }
@@ -165,6 +168,28 @@ void transaction<Conversation>::fail_attempt(time_point now, errc why, bool came
         queue(message::abort, std::move(*abort), now);
     else
         queue(message::question, conversation_.begin(), now);
+}
+
+// Even what must not be done twice: it was not done. An answer that waits there, perhaps to a question of ours whose
+// first frame was lost, is cleared once, and does not cost an attempt.
+template <class Conversation>
+void transaction<Conversation>::ask_again(time_point now, answer_type refusal)
+{
+    auto abort = conversation_.abort();
+    if (abort && !cleared_)
+        ++allowed_;
+    if (attempts_ >= allowed_ || (abort && cleared_)) {
+        conclude(now, std::move(refusal));
+        return;
+    }
+    if (abort) {
+        cleared_ = true;
+        queue(message::abort, std::move(*abort), now);
+    }
+    else {
+        line_free_from_ = now + std::max(timing_.turnaround, gap());  // it may be busy
+        queue(message::question, conversation_.begin(), now);
+    }
 }
 
 // The station is told to forget the rest of an answer, so that the next question finds it ready.

@@ -15,7 +15,8 @@ struct line_options {
     character_format format{.baud_rate = 9600, .data_bits = 8, .check = parity::odd, .stop_bits = 1};  // 7.1.1
     duration response_timeout{500'000};  // from the last byte of a request to the first of the answer, for each frame
     unsigned retries = 2;                // after the first attempt
-    duration turnaround{100'000};        // silence after what nobody answers: a global command, AB
+    duration turnaround{100'000};        // silence after what nobody answers (a global command, AB), or before a busy
+                                         // station is asked again
     duration gap{};                      // silence before a request; at least one character
     duration silence{100'000};           // ends an answer that lost its CR
 };
@@ -61,6 +62,7 @@ private:
     void queue(message what, buffer adu, time_point now);
     void judge(time_point now, const reception& r);
     void fail_attempt(time_point now, errc why, bool came);
+    void ask_again(time_point now, answer_type refusal);
     void conclude(time_point now, result<answer_type> outcome);
     duration gap() const;
     time_point give_up_waiting() const;
@@ -78,6 +80,8 @@ private:
     time_point heard_{};
     errc heard_instead_ = errc::timed_out;  // what came while the answer did not
     unsigned attempts_ = 0;
+    unsigned allowed_;      // attempts
+    bool cleared_ = false;  // AB was sent because the station refused
     unsigned unanswered_ = 0;
     time_point unanswered_since_{};
     std::size_t stray_bytes_ = 0;

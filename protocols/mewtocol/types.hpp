@@ -99,6 +99,12 @@ enum class error_code : std::uint8_t {
     no_card = 0x78,
 };
 
+// Nothing was executed, and the same question may be answered in a moment.
+constexpr bool is_passing(error_code e)
+{
+    return e == error_code::check || e == error_code::procedure || e == error_code::busy;
+}
+
 std::string to_string(error_code e);  // "61 (data)", as a PLC programmer looks it up
 
 }  // namespace plcgw::mewtocol

@@ -21,6 +21,11 @@ struct ask_on {  // the next frame of an answer in several
 };
 
 template <class Answer>
-using verdict = std::variant<not_the_answer, damaged_answer, ask_on, Answer>;
+struct not_now {    // the station executed nothing: our request was damaged, it is busy, or owes somebody an answer
+    Answer answer;  // if it stays so
+};
+
+template <class Answer>
+using verdict = std::variant<not_the_answer, damaged_answer, ask_on, not_now<Answer>, Answer>;
 
 }  // namespace plcgw::mewtocol

@@ -88,7 +88,7 @@ TEST_CASE("mewtocol client: frames that make no answer together are not believed
         {parts[0], parts[0]},            // the first again
         {parts[0], "%01**&"},            // an empty one
         {parts[0], parts[1], parts[1]},  // more than asked for
-        {parts[0], checked("%01!43")},   // an error instead: this is an answer
+        {parts[0], checked("%01!61")},   // an error instead: this is an answer
     };
     for (const auto& frames : wrong) {
         line_options options = timing;
@@ -105,9 +105,42 @@ TEST_CASE("mewtocol client: frames that make no answer together are not believed
             REQUIRE(sends(t, now += 10ms, abort_command));
         REQUIRE(is_done(t, now));
         if (&frames == &wrong[4])
-            CHECK(t.outcome().value() == response{error_code::procedure});
+            CHECK(t.outcome().value() == response{error_code::data});
         else
             CHECK(t.outcome().error() == errc::unexpected_answer);
+    }
+}
+
+TEST_CASE("mewtocol client: an answer that waits at the station is cleared once, at no cost of attempts")
+{
+    line_options options = timing;
+    options.retries = 0;
+    client t = ask(sixty_registers, one, options);
+    REQUIRE(sends(t, t0, asked_sixty));
+    t.feed(t0 + 50ms, with_cr("%01!4302"));
+    REQUIRE(sends(t, t0 + 60ms, abort_command));
+    REQUIRE(sends(t, t0 + 300ms, asked_sixty));
+    t.feed(t0 + 350ms, with_cr("%01!4302"));  // it is meant: the station does not split
+    REQUIRE(sends(t, t0 + 360ms, abort_command));
+    REQUIRE(is_done(t, t0 + 360ms));
+    CHECK(t.outcome().value() == response{error_code::procedure});
+    CHECK(t.attempts() == 2);
+}
+
+TEST_CASE("mewtocol client: a damaged request or a busy station is asked again, even to register")
+{
+    for (const std::string& refusal : {checked("%01!40"), checked("%01!53")}) {
+        CAPTURE(refusal);
+        client t = ask(register_data{{{word_area::dt, 0}}});
+        const std::string registers = checked("%01#MDD00000");
+        REQUIRE(sends(t, t0, registers));
+        t.feed(t0 + 50ms, with_cr(refusal));
+        CHECK(waits(t, t0 + 50ms) == t0 + 150ms);
+        REQUIRE(sends(t, t0 + 150ms, registers));
+        t.feed(t0 + 190ms, with_cr(refusal));
+        REQUIRE(is_done(t, t0 + 190ms));  // one retry
+        CHECK(std::holds_alternative<error_code>(t.outcome().value()));
+        CHECK(t.attempts() == 2);
     }
 }
 

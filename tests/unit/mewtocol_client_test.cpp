@@ -209,6 +209,9 @@ TEST_CASE("mewtocol client: what does not fit into the fields or one frame is no
     }
     client nobody = ask(two_registers, station_id{100});
     CHECK(is_done(nobody, t0));
+    client everybody = ask(two_registers, station_id::global);
+    CHECK(is_done(everybody, t0));
+    CHECK(everybody.outcome().error() == errc::not_expressible);
 }
 
 TEST_CASE("mewtocol client: it waits for a quiet line, but not for ever")

@@ -1,8 +1,13 @@
 // Damaged frames. A BCC is one exclusive or: it finds every single wrong bit and every single lost or doubled character
-// of what it covers, but no two equal errors in one column, and no exchange of two characters. The header, the end and
-// `&` are outside; what happens to them is shown here.
+// of what it covers, but no two equal errors in one column, and no exchange of two characters.
+//
+// One wrong bit outside of it: a header becomes no other header; without CR there is no frame; a 5 that becomes `%`
+// begins a frame that has no `#` or `$`; a last digit 6 that becomes `&` makes a check of the two characters in front
+// of it, which then fits no text.
 #include "protocols/mewtocol/conversation.hpp"
 #include "tests/unit/mewtocol_vectors.hpp"
+
+#include <random>
 
 TEST_SUITE_BEGIN("mewtocol");
 
@@ -175,6 +180,30 @@ TEST_CASE("mewtocol faults: lower-case digits of a check are wrong")
     mewtocol_bench b;
     CHECK(b.say("%01#RCSX000A6c") == "%01!4001");
     CHECK(b.say("%01#RCSX000A6C") == "%01$RC021");
+}
+
+TEST_CASE("mewtocol faults: whatever is said to a station, what it says is a frame, and it goes on")
+{
+    constexpr std::string_view alphabet = "%<>@#$!&**\r0123456789ABCDEFRDWTSPCKMGXYL";
+    std::minstd_rand dice(7);
+    mewtocol_bench b;
+    for (int i = 0; i < 20'000; ++i) {
+        std::string said = dice() % 2 == 0 ? "%01#" : ">@00100#";
+        for (auto size = dice() % 24; size > 0; --size)
+            said.push_back(alphabet[dice() % alphabet.size()]);
+        const buffer replies = b.hear(with_cr(said + (said[0] == '%' ? "**" : "****")));
+        line_framer framer(1s);
+        framer.feed(t0, replies);
+        while (const auto r = framer.next(t0 + 1s)) {
+            REQUIRE(is_frame(*r));
+            if (r->characters[0] == '>')
+                CHECK(mewtocol7::parse_frame(r->characters)->checked == check::good);
+            else
+                CHECK(parse_frame(r->characters)->checked == check::good);
+        }
+    }
+    b.now += 31s;
+    CHECK(b.say("%01#RCSX00001D") == "%01$RC021");
 }
 
 TEST_SUITE_END();
