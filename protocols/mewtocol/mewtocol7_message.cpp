@@ -1,33 +1,14 @@
-#include "protocols/mewtocol/mewtocol7_message.hpp"
-
-#include "protocols/mewtocol/text.hpp"
-
-#include <algorithm>
+#include "protocols/mewtocol/mewtocol7_fields.hpp"
 
 namespace plcgw::mewtocol7 {
 namespace {
 
 using mewtocol::append_dec;
 using mewtocol::append_hex;
-using mewtocol::append_words;
 using mewtocol::read_dec;
 using mewtocol::read_hex;
-using mewtocol::swapped;
 
 using parsed = boost::system::result<command, error_code>;
-using words = std::vector<std::uint16_t>;
-
-constexpr std::string_view read_name = "00MMRD";
-constexpr std::string_view write_name = "00MMWT";
-constexpr std::string_view state_name = "30STRD";
-constexpr std::string_view state_argument = "00";
-constexpr std::size_t name_size = 6;
-
-std::string_view name_of(const command& c)
-{
-    constexpr std::string_view names[] = {read_name, write_name, state_name};
-    return names[c.index()];
-}
 
 const device_name* device_of(word_area a, const dialect& d)
 {
@@ -52,23 +33,6 @@ std::uint64_t highest(unsigned digits, const dialect& d)
     for (; digits > 0; --digits)
         n *= static_cast<unsigned>(d.base);
     return n - 1;
-}
-
-void append_data(std::string& to, std::span<const std::uint16_t> data, const dialect& d)
-{
-    if (d.words == byte_order::low_byte_first)
-        append_words(to, data);
-    else
-        for (const std::uint16_t word : data)
-            append_hex(to, word, 4);
-}
-
-std::optional<words> read_data(std::string_view text, const dialect& d)
-{
-    auto data = mewtocol::words_in(text);
-    if (data && d.words == byte_order::high_byte_first)
-        std::transform(data->begin(), data->end(), data->begin(), swapped);
-    return data;
 }
 
 void append_block(std::string& to, word_area area, std::uint32_t first, std::size_t count, const dialect& d)
@@ -144,54 +108,6 @@ std::size_t write_overhead(const dialect& d, std::size_t name)
     return frame_overhead + 1 + name_size + d.item.size() + d.scope.size() + name + d.address_digits + d.count_digits;
 }
 
-void append_state(std::string& text, const state_read& s)
-{
-    text.append(state_argument);
-    append_hex(text, s.series, 2);
-    append_hex(text, s.model, 2);
-    append_hex(text, s.special_order, 4);
-    append_hex(text, s.newest_version, 4);
-    append_hex(text, s.communication_version, 4);
-    append_hex(text, s.operation_version, 4);
-    append_hex(text, s.mode, 2);
-    append_hex(text, s.error_flags, 2);
-    append_hex(text, s.self_diagnosis, 4);
-    append_hex(text, s.card, 2);
-    text.append(s.rest);
-}
-
-// Digits from `at` on; something else makes the answer unexpected.
-std::uint16_t hex_at(std::string_view text, std::size_t at, std::size_t digits, bool& good)
-{
-    const auto value = read_hex(text.substr(at, digits));
-    good = good && value;
-    return static_cast<std::uint16_t>(value.value_or(0));
-}
-
-result<response> parse_state(std::string_view text)
-{
-    constexpr std::size_t size = 38;
-    if (text.size() != size || !text.starts_with(state_argument))
-        return make_error_code(errc::unexpected_answer);
-    bool good = true;
-    const auto byte = [&](std::size_t at) { return static_cast<std::uint8_t>(hex_at(text, at, 2, good)); };
-    const auto word = [&](std::size_t at) { return hex_at(text, at, 4, good); };
-    state_read s{byte(2),
-                 byte(4),
-                 word(6),
-                 word(10),
-                 word(14),
-                 word(18),
-                 byte(22),
-                 byte(24),
-                 word(26),
-                 byte(30),
-                 std::string(text.substr(32))};
-    if (!good)
-        return make_error_code(errc::unexpected_answer);
-    return response{std::move(s)};
-}
-
 }  // namespace
 
 std::size_t max_words_written(const dialect& d)
@@ -243,56 +159,6 @@ std::string encode_command(const command& c, const dialect& d)
         text.append(state_argument);
     }
     return text;
-}
-
-std::string encode_response(const command& question, const response& answer, const dialect& d)
-{
-    if (std::holds_alternative<no_response>(answer))
-        return {};
-    if (const auto* code = std::get_if<error_code>(&answer)) {
-        std::string text = "!" + d.before_error;
-        append_hex(text, static_cast<std::uint8_t>(*code), 2);
-        return text;
-    }
-    std::string text = "$";
-    text.append(name_of(question));
-    if (const auto* read = std::get_if<words_read>(&answer)) {
-        text.append(d.before_words);
-        append_data(text, read->values, d);
-    }
-    else if (const auto* state = std::get_if<state_read>(&answer)) {
-        append_state(text, *state);
-    }
-    return text;
-}
-
-result<response> parse_response(const command& question, std::string_view text, const dialect& d)
-{
-    const auto unexpected = make_error_code(errc::unexpected_answer);
-    if (text.starts_with('!')) {
-        const std::string_view behind = text.substr(1);
-        if (!behind.starts_with(d.before_error) || behind.size() != d.before_error.size() + 2)
-            return unexpected;
-        const auto code = read_hex(behind.substr(d.before_error.size()));
-        if (!code)
-            return unexpected;
-        return response{error_code{static_cast<std::uint8_t>(*code)}};
-    }
-    if (!text.starts_with('$') || text.substr(1, name_size) != name_of(question))
-        return unexpected;
-    std::string_view data = text.substr(1 + name_size);
-    if (std::holds_alternative<read_status>(question))
-        return parse_state(data);
-    if (std::holds_alternative<write_words>(question))
-        return data.empty() ? result<response>{response{executed{}}} : unexpected;
-    if (!data.starts_with(d.before_words))
-        return unexpected;
-    data.remove_prefix(d.before_words.size());
-    auto values =
-        data.size() == 4 * std::size_t{std::get<read_words>(question).count} ? read_data(data, d) : std::nullopt;
-    if (!values)
-        return unexpected;
-    return response{words_read{std::move(*values)}};
 }
 
 std::optional<std::vector<command>> plan_write(const write_words& block, const dialect& d)
