@@ -22,6 +22,8 @@ public:
         case errc::collision: return "own request came back changed";
         case errc::line_not_quiet: return "line not quiet";
         case errc::port_absent: return "port absent";
+        case errc::restarted: return "a new frame began inside the frame";
+        case errc::not_expressible: return "not expressible in this protocol";
         }
         return "unknown error";
     }

@@ -20,6 +20,8 @@ enum class errc {
     collision,          // our own bytes came back from the line changed
     line_not_quiet,     // somebody else kept talking when it was our turn
     port_absent,        // the serial port is not there, or was unplugged during the exchange
+    restarted,          // a new frame began in the middle of this one
+    not_expressible,    // the question does not fit into the fields of this protocol: nothing was sent
 };
 
 const boost::system::error_category& protocol_category() noexcept;
