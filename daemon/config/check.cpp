@@ -2,6 +2,7 @@
 
 #include "bridge/plc/adprw_program.hpp"
 #include "bridge/plc/simulated_plc.hpp"
+#include "daemon/config/device_check.hpp"
 #include "daemon/config/ip_address.hpp"
 #include "daemon/config/program_file.hpp"
 #include "daemon/config/reader.hpp"
@@ -17,7 +18,10 @@ namespace {
 std::filesystem::path port_of(const line_config& l) { return std::filesystem::path(l.device).lexically_normal(); }
 
 // As daemon/gateway.cpp calls it in DDS: "main.D0".
-std::string block_name(const block_config& b) { return b.plc + "." + plc::to_string(*plc::parse_device(b.device)); }
+std::string block_name(const std::string& plc, const plc::model& model, plc::device head)
+{
+    return plc + "." + plc::to_string(head, model.names);
+}
 
 // The devices that a row of the configuration takes in a PLC's memory.
 struct occupied {
@@ -126,7 +130,11 @@ private:
             complain(item("plcs", i, "program_file"), "names \"" + p.program_file + "\", which cannot be read");
             return;
         }
-        if (is_sound(item("plcs", i, "program")))
+        if (!model->programs && !(p.program.empty() && p.program_file.empty()))
+            complain(item("plcs", i, p.program.empty() ? "program_file" : "program"),
+                     "does not belong to a " + std::string(model->name) +
+                         ", which has neither D8400-D8485 nor ADPRW: remove it, the lines say how it communicates");
+        else if (is_sound(item("plcs", i, "program")))
             check_program(i, p, *model, *program);
         check_channels(i, p, *model);
     }
@@ -223,9 +231,7 @@ private:
 
     void check_unit_channel(const std::string& at, const unit_config& unit)
     {
-        const auto owner =
-            std::find_if(c_.plcs.begin(), c_.plcs.end(), [&](const plc_config& each) { return each.name == unit.plc; });
-        const plc::model* const model = owner == c_.plcs.end() ? nullptr : plc::find_model(owner->model);
+        const plc::model* const model = model_of(unit.plc);
         if (model == nullptr)
             return;
         const bool exists = std::any_of(model->channels.begin(), model->channels.end(),
@@ -281,8 +287,19 @@ private:
         check_request(i, r);
         const std::size_t bits = modbus::is_bit_table(r.table) ? r.count : std::size_t{16} * r.count;
         const auto at = check_devices(item("routes", i), r.plc, r.device, bits);
-        if (at && r.way == direction::read)
+        if (at && r.way == direction::read) {
+            if (const std::string why = status_mistake(*model_of(r.plc), *at, bits); !why.empty())
+                complain(item("routes", i, "device"), why);
             check_overlap(item("routes", i, "device"), {r.plc, *at, bits, r.name});
+        }
+    }
+
+    // Null when the PLC or its model does not exist, of which somebody else complains.
+    const plc::model* model_of(const std::string& plc) const
+    {
+        const auto owner =
+            std::find_if(c_.plcs.begin(), c_.plcs.end(), [&](const plc_config& each) { return each.name == plc; });
+        return owner == c_.plcs.end() ? nullptr : plc::find_model(owner->model);
     }
 
     void check_request(std::size_t i, const route_config& r)
@@ -305,26 +322,10 @@ private:
     {
         const plc_config* const owner = find_plc(plc, row + "/plc");
         const plc::model* const model = owner == nullptr ? nullptr : plc::find_model(owner->model);
-        const auto parsed = plc::parse_device(device);
-        if (!parsed && !device.empty())
-            complain(row + "/device", "is \"" + device + "\", expected a device such as D100, M0 or X17 (octal)");
-        if (!parsed || model == nullptr)
-            return std::nullopt;
-        const plc::memory memory(*model);
-        const auto at = memory.find(*parsed);
-        if (!at || !plc::exists(*model, *parsed)) {
-            complain(row + "/device",
-                     "is " + plc::to_string(*parsed) + ", which a " + std::string(model->name) + " does not have");
-            return std::nullopt;
-        }
-        if (memory.bits_from(*at) < bits) {
-            const plc::area& area = model->areas[at->area];
-            const plc::device last{area.kind, area.first + area.count - 1};
-            complain(row + "/device", "is " + plc::to_string(*parsed) + ", but from there the count goes beyond " +
-                                          plc::to_string(last) + ", the last one");
-            return std::nullopt;
-        }
-        return at;
+        found_devices found = find_devices(model, device, bits);
+        if (!found.mistake.empty())
+            complain(row + "/device", std::move(found.mistake));
+        return found.at;
     }
 
     void check_overlap(const std::string& at, occupied taken)
@@ -385,12 +386,13 @@ private:
         for (std::size_t i = 0; i < c_.dds.blocks.size(); ++i) {
             const block_config& b = c_.dds.blocks[i];
             const std::string row = "/dds/blocks/" + std::to_string(i);
-            const auto device = plc::parse_device(b.device);
+            const plc::model* const model = model_of(b.plc);
+            const auto device = model == nullptr ? std::nullopt : plc::parse_device(b.device, model->names);
             const bool bits = device && plc::is_bit_kind(device->kind);
             const std::size_t size = bits ? b.count : std::size_t{16} * b.count;
             if (!check_devices(row, b.plc, b.device, is_sound(row) ? size : 1))
                 continue;
-            const std::string name = block_name(b);
+            const std::string name = block_name(b.plc, *model, *device);
             if (name.size() > name_rule.most)
                 complain(row + "/plc", "makes \"" + name + "\", which is longer than the " +
                                            std::to_string(name_rule.most) +
