@@ -56,7 +56,7 @@ template <class Visitor>
 void describe(Visitor& v, plc_config& c)
 {
     v.required("name", c.name, "Name of the simulated PLC", name_rule);
-    v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22 or LS32", name_rule);
+    v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22, LS32 or FP7", name_rule);
     v.optional("program", c.program,
                "PLC program, one instruction per string: LD M8411, MOV H5002 D8470, ... and ADPRW lines", text{});
     v.optional("channels", c.channels, "Lines on which the PLC's own program is client");
