@@ -102,7 +102,7 @@ class CommandsTest(InteropTest):
                               "input register ir:2000 (0x07D0) 32001 / 302001 LD0"], ""))
         for wrong, why in (("R1G", "one hexadecimal digit for the bit: R1F"), ("D100", "such as DT100, R1F or WR3"),
                            ("DT65536", "but DT0-DT65535"), ("WX512", "but WX0-WX511"),
-                           ("Y128", "no MODBUS number leads to it"), ("ir:1024", "exception 02")):
+                           ("Y1280", "no MODBUS number leads to it"), ("ir:1024", "exception 02")):
             with self.subTest(wrong=wrong):
                 status, out, err = answer(wrong)
                 self.assertEqual((status, out), (1, []))
