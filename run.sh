@@ -9,6 +9,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 config=$root/etc/demo.json
 gateway=$root/build/release/daemon/plc-gateway
 field_line=$root/build/release/tests/field/field-line
+field_scale=$root/build/release/tests/field/field-scale
 demo_dir=/tmp/plc-gateway-demo  # a fixed path, because etc/demo.json names the serial line in it
 log=$demo_dir/gateway.log
 children=()                     # process ids; negative for a whole group, as kill takes them
@@ -114,7 +115,9 @@ answering_or_gone() {
 start_demo() {
     start "$field_line" --link "$demo_dir/line1" --device 1:pump --device 2:meter --device 3:tank >"$demo_dir/field.log" 2>&1
     field_pid=$!
-    wait_until 50 test -e "$demo_dir/line1" || fail "the simulated field devices did not start:" "$(<"$demo_dir/field.log")"
+    start "$field_scale" --link "$demo_dir/scale" >>"$demo_dir/field.log" 2>&1
+    scale_pid=$!
+    wait_until 50 test -e "$demo_dir/line1" -a -e "$demo_dir/scale" || fail "the simulated field devices did not start:" "$(<"$demo_dir/field.log")"
     start "$gateway" run --config "$config" >"$log" 2>&1
     gateway_pid=$!
     wait_until 100 answering_or_gone || echo "run.sh: the gateway does not listen yet, see $log" >&2
@@ -139,12 +142,12 @@ hints() {
     printf -v check '%q check %q' "$gateway" "$config"
     cat <<END
 
-plc-gateway is running: it polls three simulated devices on the serial line $demo_dir/line1,
+plc-gateway is running: it polls three simulated devices on the serial line $demo_dir/line1, hears a scale,
 and answers MODBUS TCP on 127.0.0.1:$(ports | paste -sd,) (unit 1) and DDS on loopback. Its log: $log
 
 Three things to try, from another terminal:
-  1. Read its registers by MODBUS TCP: pump 101-103, meter 111-118, tank 121 (Debian package mbpoll):
-       mbpoll -m tcp -p $(ports | head -n 1) -a 1 -t 4 -r 101 -c 21 127.0.0.1
+  1. Read its registers by MODBUS TCP: pump 101-103, meter 111-118, tank 121, scale 131-132 (Debian package mbpoll):
+       mbpoll -m tcp -p $(ports | head -n 1) -a 1 -t 4 -r 101 -c 32 127.0.0.1
   2. Watch them by DDS:
        $watch
   3. Edit what it does in $config,
@@ -164,7 +167,7 @@ run() {
     fi
     while true; do
         status=0
-        wait -n -p ended "$gateway_pid" "$field_pid" $watch_pid || status=$?
+        wait -n -p ended "$gateway_pid" "$field_pid" "$scale_pid" $watch_pid || status=$?
         [[ $ended == "$watch_pid" ]] || explain_end "$ended" "$status"
         echo "run.sh: the live view ended with status $status; the gateway still runs." >&2
         watch_pid=

@@ -27,6 +27,11 @@ public:
         if (publisher_)
             publisher_->publish(s);
     }
+    void publish(const serial_message& message)
+    {
+        if (publisher_)
+            publisher_->publish(message);
+    }
     void publish(const gateway_status& status)
     {
         if (publisher_)

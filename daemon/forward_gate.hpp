@@ -31,9 +31,8 @@ public:
 
     // Nothing when too many requests wait already. timing: of the station or line, if absent. heard: called for each
     // attempt that failed, when it did.
-    asio::awaitable<std::optional<result<modbus::response>>> ask(modbus::unit_id unit, modbus::request request,
-                                                                 std::optional<modbus::serial_options> timing,
-                                                                 on_fault heard);
+    asio::awaitable<std::optional<result<modbus::response>>>
+    ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing, on_fault heard);
 
     // The same in parts, for who may have to leave before the answer. Null when too many wait.
     handle begin(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing = {},

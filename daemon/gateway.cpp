@@ -76,6 +76,10 @@ void gateway::make_lines()
 {
     const auto plc = [this](const std::string& name) -> plc::simulated_plc& { return *find_plc(name); };
     for (const line_config& each : config_.lines) {
+        if (each.protocol == line_protocol::general_purpose) {
+            make_message_line(each);
+            continue;
+        }
         if (each.role == line_role::server) {
             server_lines_.push_back(make_server_line(loop_, each, plc, fp7_ports_, [this] { settle_memory(); }));
             continue;
@@ -84,6 +88,15 @@ void gateway::make_lines()
         lines_.push_back(
             std::make_unique<running_line>(loop_, config_, each, plc, [this, index] { settle(*lines_[index]); }));
     }
+}
+
+void gateway::make_message_line(const line_config& line)
+{
+    const auto plc = [this](const std::string& name) -> plc::simulated_plc& { return *find_plc(name); };
+    const std::size_t index = message_lines_.size();
+    message_lines_.push_back(std::make_unique<message_line>(loop_, line,
+                                                            line_messages_of(line, config_.dds.longest_silence, plc),
+                                                            [this, index] { settle(*message_lines_[index]); }));
 }
 
 void gateway::make_programs(const std::string& folder)
@@ -144,6 +157,8 @@ bool gateway::start()
         asio::co_spawn(loop_, line->driver->run(), asio::detached);
     for (const auto& line : server_lines_)
         asio::co_spawn(loop_, line->run(), asio::detached);
+    for (const auto& line : message_lines_)
+        asio::co_spawn(loop_, line->run(), asio::detached);
     for (const auto& program : programs_)
         asio::co_spawn(loop_, program->run(), asio::detached);
     asio::co_spawn(loop_, every_second(), asio::detached);
@@ -190,7 +205,22 @@ void gateway::settle(running_line& line)
         log_event(event);
     line.gate.deliver();
     settle_memory();
-    const std::vector<sample> samples = line.routes.take_samples(now());
+    say(line.routes.take_samples(now()));
+}
+
+void gateway::settle(message_line& line)
+{
+    settle_memory();
+    const std::vector<sample> samples = line.content.take_samples(now());
+    for (const line_event& event : line.content.take_events())
+        log_event(event);
+    for (const serial_message& each : line.content.take_messages())
+        dds_.publish(each);
+    say(samples);
+}
+
+void gateway::say(const std::vector<sample>& samples)
+{
     for (const sample& each : samples)
         dds_.publish(each);
     if (samples.empty())
@@ -210,6 +240,9 @@ void gateway::settle_memory()
             for (const auto& line : lines_)
                 if (line->routes.memory_changed(*plc, changed))
                     line->driver->wake();
+            for (const auto& line : message_lines_)
+                if (line->content.memory_changed(*plc, changed, now()))
+                    line->wake();
             for (running_block& block : blocks_)
                 block.changed = block.changed || touches(block.content, *plc, changed);
         }
@@ -239,6 +272,8 @@ sample gateway::sample_now(const running_block& block) const
     sample made = sample_of(block.content, wall_now());
     for (const auto& line : lines_)
         line->routes.worsen(made, *block.content.plc, block.content.at, bits_of(block.content));
+    for (const auto& line : message_lines_)
+        line->content.worsen(made, *block.content.plc, block.content.at, bits_of(block.content));
     return made;
 }
 
@@ -251,6 +286,10 @@ void gateway::publish_everything()
         line->routes.say_everything();
         for (const sample& each : line->routes.take_samples(now()))
             dds_.publish(each);
+    }
+    for (const auto& line : message_lines_) {
+        line->content.say_everything();
+        say(line->content.take_samples(now()));
     }
 }
 
@@ -272,6 +311,10 @@ void gateway::show_status()
     for (const auto& line : lines_) {
         status.routes_up += static_cast<std::uint32_t>(line->routes.routes_up());
         status.routes_total += static_cast<std::uint32_t>(line->routes.routes_total());
+    }
+    for (const auto& line : message_lines_) {
+        status.routes_up += static_cast<std::uint32_t>(line->content.routes_up());
+        status.routes_total += static_cast<std::uint32_t>(line->content.routes_total());
     }
     dds_.publish(status);
     const std::string text = fmt::format("{} of {} routes up", status.routes_up, status.routes_total);

@@ -5,6 +5,7 @@
 #include "daemon/config/read.hpp"
 #include "daemon/control_server.hpp"
 #include "daemon/dds_link.hpp"
+#include "daemon/message_line.hpp"
 #include "daemon/plc_program.hpp"
 #include "daemon/running_line.hpp"
 #include "daemon/server_line.hpp"
@@ -32,6 +33,7 @@ private:
 
     void make_plcs(const std::string& folder);
     void make_lines();
+    void make_message_line(const line_config& line);
     void make_programs(const std::string& folder);
     void make_servers();
     void make_blocks();
@@ -43,6 +45,8 @@ private:
 
     // The one place where changes are drained, after an exchange on a line or a client's requests.
     void settle(running_line& line);
+    void settle(message_line& line);
+    void say(const std::vector<sample>& samples);
     void settle_memory();
 
     void publish_everything();
@@ -60,6 +64,7 @@ private:
     std::vector<std::unique_ptr<running_line>> lines_;
     fp7_ports fp7_ports_;
     std::vector<std::unique_ptr<line_driver>> server_lines_;
+    std::vector<std::unique_ptr<message_line>> message_lines_;
     std::vector<std::unique_ptr<plc_program>> programs_;
     std::vector<std::unique_ptr<tcp_server>> servers_;
     std::vector<running_block> blocks_;

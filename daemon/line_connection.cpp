@@ -22,4 +22,9 @@ modbus::framing framing_of(const line_config& line)
     return line.protocol == line_protocol::modbus_ascii ? modbus::framing::ascii : modbus::framing::rtu;
 }
 
+local_echo echo_of(const line_config& line)
+{
+    return line.rs485.enabled && line.rs485.rx_during_tx ? local_echo::on : line.echo;
+}
+
 }  // namespace plcgw

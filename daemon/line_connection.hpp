@@ -2,6 +2,7 @@
 // connection. It is opened again when it comes back: absence is a normal state.
 #pragma once
 
+#include "daemon/bit_errors.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/read_before.hpp"
 #include "protocols/bytes.hpp"
@@ -29,6 +30,12 @@ public:
                                                                      asio::mutable_buffer into) = 0;
     virtual void interrupt() = 0;
 
+    // Since the last call; none where nobody counts them.
+    virtual bit_errors take_bit_errors() { return {}; }
+
+    // Characters that the port lost since it exists; nothing where that is not known.
+    virtual std::optional<std::uint64_t> overruns() { return std::nullopt; }
+
     // A question went without an answer. A device server or MODBUS TCP server that has lost its mind, or its power,
     // may hold a connection on which nothing comes any more: then it is deaf, and to be closed and opened again.
     virtual void missed_answer() {}
@@ -44,5 +51,6 @@ std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const l
 // Of the serial line, also of that behind a device server.
 character_format format_of(const line_config& line);
 modbus::framing framing_of(const line_config& line);
+local_echo echo_of(const line_config& line);
 
 }  // namespace plcgw

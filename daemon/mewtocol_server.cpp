@@ -55,6 +55,7 @@ asio::awaitable<error_code> mewtocol_server::serve()
             if (ec)
                 co_return ec;
         }
+        ports_.note(connection_->take_bit_errors());
         settle_();
     }
 }

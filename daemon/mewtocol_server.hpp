@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bridge/services/mewtocol_station.hpp"
+#include "daemon/fp7_line_ports.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
 #include "protocols/echo_filter.hpp"
@@ -24,6 +25,8 @@ public:
     // The channel reset of a station's port: a command half heard and an answer not yet begun are given up.
     void reset(std::size_t station);
 
+    fp7_line_ports& ports() { return ports_; }  // that this line stands for
+
 private:
     asio::awaitable<boost::system::error_code> serve();  // until the port fails
     asio::awaitable<boost::system::error_code> take(mewtocol::reception heard, time_point at);
@@ -36,6 +39,7 @@ private:
     echo_filter echo_;
     mewtocol::line_framer in_;
     unsigned resets_ = 0;
+    fp7_line_ports ports_;
     asio::steady_timer wait_;
     std::array<std::uint8_t, 4096> received_{};
 };

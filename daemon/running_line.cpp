@@ -50,7 +50,7 @@ modbus::serial_options timing_of(const line_config& line)
             .turnaround = line.turnaround_delay,
             .gap = line.gap,
             .silence = line.silence,
-            .echo = line.rs485.enabled && line.rs485.rx_during_tx ? local_echo::on : line.echo,
+            .echo = echo_of(line),
             .mode = framing_of(line)};
 }
 

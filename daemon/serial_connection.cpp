@@ -74,6 +74,7 @@ error_code serial_connection::try_open()
         return ec;
     }
     opened_at_ = now();
+    bit_errors_ = bit_errors_of(*fd).value_or(bit_errors{});
     log::info("line {}: {} is open, {} {}{}{}", line_.name, line_.device, line_.baud_rate, line_.data_bits,
               line_.check == parity::none  ? 'N'
               : line_.check == parity::odd ? 'O'
@@ -84,6 +85,13 @@ error_code serial_connection::try_open()
     if (line_.low_latency)
         ask_for_low_latency(line_, *fd);
     return {};
+}
+
+bit_errors serial_connection::take_bit_errors()
+{
+    const bit_errors before = bit_errors_;
+    bit_errors_ = bit_errors_of(port_.native_handle()).value_or(before);
+    return bit_errors_ - before;
 }
 
 void serial_connection::close(const error_code& why)
@@ -116,6 +124,11 @@ asio::awaitable<boost::system::result<std::size_t>> serial_connection::read(time
 {
     const auto size = co_await read_before(deadline, port_, guard_, into);
     co_return size;
+}
+
+std::optional<std::uint64_t> serial_connection::overruns()
+{
+    return port_.is_open() ? overruns_of(port_.native_handle()) : std::nullopt;
 }
 
 }  // namespace plcgw

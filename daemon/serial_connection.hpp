@@ -20,6 +20,8 @@ public:
     asio::awaitable<boost::system::error_code> write(bytes adu) override;
     asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline, asio::mutable_buffer into) override;
     void interrupt() override { guard_.interrupt(); }
+    bit_errors take_bit_errors() override;
+    std::optional<std::uint64_t> overruns() override;
     std::string absence() const override { return "port absent"; }
 
 private:
@@ -33,6 +35,7 @@ private:
     boost::system::error_code last_error_;  // and said so
     time_point opened_at_{};
     bool failed_at_once_ = false;
+    bit_errors bit_errors_;  // as the driver counted them last
 };
 
 }  // namespace plcgw

@@ -32,6 +32,8 @@ boost::system::error_code set_character_format(int fd, const line_config& line)
         settings.c_cflag |= PARENB;
         settings.c_iflag |= INPCK | IGNPAR;  // a damaged character is left out, the checksum does the rest
     }
+    if (line.protocol == line_protocol::general_purpose)
+        settings.c_iflag = INPCK | PARMRK;  // no checksum: damaged characters have to be seen
     settings.c_cflag |= line.check == parity::odd ? PARODD : 0U;
     settings.c_ispeed = line.baud_rate;
     settings.c_ospeed = line.baud_rate;
@@ -78,6 +80,24 @@ boost::system::result<int> open_serial_port(const line_config& line, std::string
     warning = set_rs485(fd, line.rs485);
     ::ioctl(fd, TCFLSH, TCIOFLUSH);  // what an earlier user left behind is no answer to us
     return fd;
+}
+
+std::optional<bit_errors> bit_errors_of(int fd)
+{
+    serial_icounter_struct counters{};
+    if (::ioctl(fd, TIOCGICOUNT, &counters) != 0)
+        return std::nullopt;
+    return bit_errors{.overrun = static_cast<unsigned>(counters.overrun),
+                      .framing = static_cast<unsigned>(counters.frame),
+                      .parity = static_cast<unsigned>(counters.parity)};
+}
+
+std::optional<std::uint64_t> overruns_of(int fd)
+{
+    serial_icounter_struct counters{};
+    if (::ioctl(fd, TIOCGICOUNT, &counters) != 0)
+        return std::nullopt;
+    return static_cast<std::uint64_t>(counters.overrun) + static_cast<std::uint64_t>(counters.buf_overrun);
 }
 
 void forget_output(int fd) { ::ioctl(fd, TCFLSH, TCOFLUSH); }

@@ -86,8 +86,13 @@ asio::awaitable<error_code> serial_server::take(bus_event event)
 {
     const bool ascii = framing_of(config_) == modbus::framing::ascii;
     const auto is_end_of_frame = [&](modbus_station& at) { return !ascii || at.delimiter() == in_.delimiter(); };
+    const bit_errors wrong = connection_->take_bit_errors();
+    const bool bits_wrong = wrong.sum() > 0;
+    ports_.note(wrong);
     for (modbus_station& each : stations_) {
-        if (event.what == bus_event::kind::dropped)
+        if (event.what == bus_event::kind::dropped && bits_wrong)
+            each.bit_error();
+        else if (event.what == bus_event::kind::dropped)
             each.bus_error(event.why);
         else if (is_end_of_frame(each))
             each.bus_message();

@@ -17,7 +17,9 @@ std::unique_ptr<line_driver> make_modbus(asio::io_context& loop, const line_conf
     }
     auto made = std::make_unique<serial_server>(loop, line, std::move(stations), std::move(settle));
     for (const unit_config& each : line.units)
-        ports.open(plc(each.plc), each.channel, line, each.unit, [line = made.get()] { line->reset(); });
+        made->ports().add(
+            ports.open(plc(each.plc), each.channel, line, each.unit, [line = made.get()] { line->reset(); }),
+            each.channel);
     return made;
 }
 
@@ -30,7 +32,9 @@ std::unique_ptr<line_driver> make_mewtocol(asio::io_context& loop, const line_co
     auto made = std::make_unique<mewtocol_server>(loop, line, std::move(stations), std::move(settle));
     for (std::size_t i = 0; i < line.units.size(); ++i) {
         const unit_config& each = line.units[i];
-        ports.open(plc(each.plc), each.channel, line, each.unit, [line = made.get(), i] { line->reset(i); });
+        made->ports().add(
+            ports.open(plc(each.plc), each.channel, line, each.unit, [line = made.get(), i] { line->reset(i); }),
+            each.channel);
     }
     return made;
 }

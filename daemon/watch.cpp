@@ -4,9 +4,9 @@
 #include "bridge/dds/event_text.hpp"
 #include "bridge/dds/log.hpp"
 #include "bridge/dds/subscriber.hpp"
+#include "daemon/event_json.hpp"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -22,7 +22,6 @@ namespace {
 
 using namespace std::chrono_literals;
 using steady = std::chrono::steady_clock;
-using json = nlohmann::ordered_json;
 
 using tenths = std::chrono::duration<int, std::deci>;  // of a second
 
@@ -37,65 +36,14 @@ wall_time wall_now()
 
 std::atomic<bool> table_on_screen = false;  // Cyclone's threads must not print into it
 
-json json_of(const received_block& e)
-{
-    const auto& v = e.value;
-    return {{"event", "registers"},
-            {"gateway", e.gateway},
-            {"member", e.member},
-            {"route", v.route},
-            {"area", v.area},
-            {"first", v.first},
-            {"format", v.format == sample_format::bits ? "bits" : "words"},
-            {"count", v.count},
-            {"values", values_of(v)},
-            {"quality", to_string(v.state)},
-            {"quality_code", e.code},
-            {"source_time", v.source == wall_time::never ? json() : json(iso_time(v.source))},
-            {"source_ns", static_cast<std::int64_t>(v.source)},
-            {"seq", e.seq}};
-}
-
-json json_of(const received_status& e)
-{
-    const auto& s = e.status;
-    return {{"event", "status"},
-            {"gateway", e.who.gateway},
-            {"member", e.who.member},
-            {"role", to_string(s.role)},
-            {"strength", s.strength},
-            {"started", s.started == wall_time::never ? json() : json(iso_time(s.started))},
-            {"started_ns", static_cast<std::int64_t>(s.started)},
-            {"beat", e.beat},
-            {"routes_up", s.routes_up},
-            {"routes_total", s.routes_total},
-            {"version", e.who.version},
-            {"config_hash", e.who.config_hash}};
-}
-
-json json_of(const gone_block& e)
-{
-    return {{"event", "gone"}, {"gateway", e.gateway}, {"route", e.route},
-            {"area", e.area},  {"first", e.first},     {"reason", to_string(e.reason)}};
-}
-
-json json_of(const gone_gateway& e)
-{
-    return {{"event", "gone"}, {"gateway", e.gateway}, {"member", e.member}, {"reason", to_string(e.reason)}};
-}
-
-std::string json_line(const dds_event& event)
-{
-    const json object = std::visit([](const auto& e) { return json_of(e); }, event);
-    return object.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
-}
-
 const std::string* route_of(const dds_event& event)
 {
     if (const auto* block = std::get_if<received_block>(&event))
         return &block->value.route;
     if (const auto* gone = std::get_if<gone_block>(&event))
         return &gone->route;
+    if (const auto* message = std::get_if<received_message>(&event))
+        return &message->value.line;
     return nullptr;
 }
 

@@ -22,8 +22,12 @@ public:
         case errc::collision: return "own request came back changed";
         case errc::line_not_quiet: return "line not quiet";
         case errc::port_absent: return "port absent";
-        case errc::restarted: return "a new frame began inside the frame";
+        case errc::bad_parity: return "parity error";
+        case errc::bad_stop_bit: return "framing error";
+        case errc::overrun: return "characters lost, the port was read too late";
+        case errc::restarted: return "a new frame or message began inside this one";
         case errc::not_expressible: return "not expressible in this protocol";
+        case errc::bad_count: return "number of bytes cannot be sent";
         }
         return "unknown error";
     }

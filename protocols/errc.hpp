@@ -20,8 +20,12 @@ enum class errc {
     collision,          // our own bytes came back from the line changed
     line_not_quiet,     // somebody else kept talking when it was our turn
     port_absent,        // the serial port is not there, or was unplugged during the exchange
-    restarted,          // a new frame began in the middle of this one
+    bad_parity,         // a character came with the wrong parity
+    bad_stop_bit,       // a character came without its stop bit (framing error, break)
+    overrun,            // characters came faster than the port was read
+    restarted,          // a start code, or the header of a new frame, came in the middle
     not_expressible,    // the question does not fit into the fields of this protocol: nothing was sent
+    bad_count,          // as many bytes as cannot be sent at once
 };
 
 const boost::system::error_category& protocol_category() noexcept;

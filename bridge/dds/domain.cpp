@@ -75,4 +75,14 @@ qos_ptr state_qos()
     return qos;
 }
 
+qos_ptr event_qos()
+{
+    constexpr std::int32_t kept = 256;
+    qos_ptr qos(dds_create_qos());
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+    dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept);
+    return qos;
+}
+
 }  // namespace plcgw

@@ -55,9 +55,11 @@ using qos_ptr = std::unique_ptr<dds_qos, qos_deleter>;
 
 qos_ptr partition_qos(const dds_settings& settings);  // for a DDS publisher or subscriber
 qos_ptr state_qos();  // RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1: both sides of every state topic
+qos_ptr event_qos();  // RELIABLE, VOLATILE, KEEP_LAST 256: writers of events, which a stopped reader must not block
 
 inline constexpr auto register_block_topic = "plcgw/v1/RegisterBlock";
 inline constexpr auto gateway_status_topic = "plcgw/v1/GatewayStatus";
+inline constexpr auto serial_message_topic = "plcgw/v1/SerialMessage";
 
 // "cannot create X: Bad Parameter", and what Cyclone logged about it.
 dds_error creation_error(const std::string& what, std::int32_t code, const std::string& logged);

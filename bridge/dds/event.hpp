@@ -3,6 +3,7 @@
 
 #include "bridge/dds/gateway_status.hpp"
 #include "bridge/sample.hpp"
+#include "bridge/serial_message.hpp"
 
 #include <cstdint>
 #include <string>
@@ -24,6 +25,13 @@ struct received_status {
     std::uint64_t beat{};
 };
 
+struct received_message {
+    std::string gateway;
+    std::string member;
+    std::uint64_t seq{};
+    serial_message value;
+};
+
 enum class gone_reason : std::uint8_t {
     disposed,     // the route went away
     writer_lost,  // the gateway ended, or was not heard for its lease: the last values are old
@@ -43,6 +51,6 @@ struct gone_gateway {
     gone_reason reason{};
 };
 
-using dds_event = std::variant<received_block, received_status, gone_block, gone_gateway>;
+using dds_event = std::variant<received_block, received_status, received_message, gone_block, gone_gateway>;
 
 }  // namespace plcgw

@@ -1,15 +1,18 @@
 #include "bridge/dds/event_table.hpp"
 
 #include "bridge/dds/event_text.hpp"
+#include "bridge/messages/notation.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace plcgw {
 namespace {
 
+constexpr std::size_t longest_shown = 200;  // bytes of a message
 constexpr auto silent_after_ns = std::int64_t{15} * 1'000'000'000;
 
 std::string clipped(const std::string& text, std::size_t width)
@@ -70,6 +73,13 @@ bool event_table::apply_one(const received_status& e, wall_time now)
     return changed;
 }
 
+// Each is news, the same text once more, too.
+bool event_table::apply_one(const received_message& e, wall_time)
+{
+    messages_.insert_or_assign({e.gateway, e.value.line, e.value.way, e.value.name}, e);
+    return true;
+}
+
 bool event_table::apply_one(const gone_block& e, wall_time)
 {
     const auto row = blocks_.find({e.gateway, e.route, e.area, e.first});
@@ -98,6 +108,8 @@ std::vector<table_line> event_table::lines(wall_time now, std::size_t width, std
     for (const auto& [key, row] : members_)
         gateways.insert(std::get<0>(key));
     for (const auto& [key, row] : blocks_)
+        gateways.insert(std::get<0>(key));
+    for (const auto& [key, row] : messages_)
         gateways.insert(std::get<0>(key));
 
     std::vector<table_line> out;
@@ -148,6 +160,24 @@ void event_table::gateway_lines(const std::string& gateway, wall_time now, std::
         out.push_back({lost ? line_style::old : style_of(v.state),
                        row_text(mark, printable(v.route), register_text(v.area, v.first, v.count),
                                 lost ? "gone" : to_string(v.state), age_text(v.source, now), values_text(v))});
+    }
+    message_lines(gateway, now, out);
+}
+
+void event_table::message_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const
+{
+    bool headed = false;
+    for (const auto& [key, row] : messages_) {
+        if (std::get<0>(key) != gateway)
+            continue;
+        if (!std::exchange(headed, true))
+            out.push_back({line_style::heading, row_text(' ', "LINE", "MESSAGE", "WAY", "AGE", "TEXT")});
+        const serial_message& v = row.value;
+        const bool refused = !v.reason.empty();
+        out.push_back({refused ? line_style::warning : line_style::plain,
+                       row_text(refused ? '!' : ' ', printable(v.line), v.name.empty() ? "-" : printable(v.name),
+                                refused ? "refused" : to_string(v.way), age_text(v.when, now),
+                                messages::printable(v.content, longest_shown))});
     }
 }
 

@@ -43,14 +43,18 @@ private:
 
     bool apply_one(const received_block& e, wall_time now);
     bool apply_one(const received_status& e, wall_time now);
+    bool apply_one(const received_message& e, wall_time now);
     bool apply_one(const gone_block& e, wall_time now);
     bool apply_one(const gone_gateway& e, wall_time now);
+    void message_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
     void gateway_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
 
     using member_key = std::tuple<std::string, std::string>;                             // gateway, member
     using block_key = std::tuple<std::string, std::string, std::string, std::uint32_t>;  // gateway, route, area, first
+    using message_key = std::tuple<std::string, std::string, message_direction, std::string>;  // gateway, line, name
     std::map<member_key, member_row> members_;
     std::map<block_key, block_row> blocks_;
+    std::map<message_key, received_message> messages_;  // the last one each
 };
 
 }  // namespace plcgw

@@ -1,5 +1,7 @@
 #include "bridge/dds/event_text.hpp"
 
+#include "bridge/messages/notation.hpp"
+
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -9,6 +11,7 @@
 namespace plcgw {
 namespace {
 
+constexpr std::size_t longest_message = 200;  // bytes
 constexpr std::int64_t second_ns = 1'000'000'000;
 
 std::string line(const received_block& e)
@@ -21,6 +24,15 @@ std::string line(const received_block& e)
 std::string line(const received_status& e)
 {
     return fmt::format("gateway {}, member {}: {}", printable(e.who.gateway), printable(e.who.member), status_text(e));
+}
+
+std::string line(const received_message& e)
+{
+    const auto& v = e.value;
+    return fmt::format("{} {} {} {} {}: {}{}", iso_time(v.when), printable(e.gateway), printable(v.line),
+                       to_string(v.way), v.name.empty() ? "-" : printable(v.name),
+                       messages::printable(v.content, longest_message),
+                       v.reason.empty() ? "" : " REFUSED: " + printable(v.reason));
 }
 
 std::string line(const gone_block& e)
@@ -116,6 +128,8 @@ std::string status_text(const received_status& s)
 }
 
 std::string_view to_string(gone_reason reason) { return reason == gone_reason::disposed ? "disposed" : "writer lost"; }
+
+std::string_view to_string(message_direction way) { return way == message_direction::sent ? "sent" : "received"; }
 
 std::string line_of(const dds_event& event)
 {

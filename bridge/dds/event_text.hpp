@@ -22,6 +22,7 @@ std::string values_text(const sample& s);  // "1 2 3", or bits as "0110"
 std::string register_text(const std::string& area, std::uint32_t first, std::uint32_t count);  // "holding 100..103"
 std::string status_text(const received_status& s);                                             // "solo, routes 3/4 up"
 std::string_view to_string(gone_reason reason);
+std::string_view to_string(message_direction way);
 
 std::string line_of(const dds_event& event);  // one line without its end
 

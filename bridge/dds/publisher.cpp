@@ -4,6 +4,7 @@
 #include "bridge/dds/domain.hpp"
 #include "bridge/dds/log_capture.hpp"
 #include "bridge/dds/quality_code.hpp"
+#include "messages.h"
 #include "registers.h"
 
 #include <dds/dds.h>
@@ -16,9 +17,8 @@ namespace {
 
 using instance_key = std::tuple<std::string, std::string, std::uint32_t>;
 
-qos_ptr writer_qos()
+qos_ptr writer_qos(qos_ptr qos)
 {
-    qos_ptr qos = state_qos();
     // Fast DDS 2.x knows XCDR1 only. Values stay when the gateway ends: it did not dispose of the registers.
     const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
     dds_qset_data_representation(qos.get(), 1, &xcdr1);
@@ -33,7 +33,9 @@ struct dds_publisher::state {
     std::unique_ptr<dds_participant> participant;
     dds_entity_t blocks{};    // writer of RegisterBlock
     dds_entity_t statuses{};  // writer of GatewayStatus
+    dds_entity_t messages{};  // writer of SerialMessage
     std::map<instance_key, std::uint64_t, std::less<>> sequence;
+    std::map<std::string, std::uint64_t> messages_of;  // each line
     std::uint64_t beat = 0;
     std::uint64_t published = 0;
     std::uint64_t drops = 0;
@@ -58,14 +60,18 @@ dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dd
     const dds_entity_t publisher = dds_create_publisher(parent, partition_qos(settings).get(), nullptr);
     if (publisher < 0)
         return creation_error("DDS publisher", publisher, log.text());
-    const auto create_writer = [&](const dds_topic_descriptor_t& type, const char* name) {
+    const auto create_writer = [&](const dds_topic_descriptor_t& type, const char* name, qos_ptr qos) {
         const dds_entity_t topic = dds_create_topic(parent, &type, name, nullptr, nullptr);
-        return topic < 0 ? topic : dds_create_writer(publisher, topic, writer_qos().get(), nullptr);
+        return topic < 0 ? topic : dds_create_writer(publisher, topic, writer_qos(std::move(qos)).get(), nullptr);
     };
-    made->blocks = create_writer(plcgw_v1_RegisterBlock_desc, register_block_topic);
+    // First: who hears the registers does not miss a message from then on.
+    made->messages = create_writer(plcgw_v1_SerialMessage_desc, serial_message_topic, event_qos());
+    if (made->messages < 0)
+        return creation_error("DDS writer of SerialMessage", made->messages, log.text());
+    made->blocks = create_writer(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
     if (made->blocks < 0)
         return creation_error("DDS writer of RegisterBlock", made->blocks, log.text());
-    made->statuses = create_writer(plcgw_v1_GatewayStatus_desc, gateway_status_topic);
+    made->statuses = create_writer(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
     if (made->statuses < 0)
         return creation_error("DDS writer of GatewayStatus", made->statuses, log.text());
     return dds_publisher(std::move(made));
@@ -128,6 +134,22 @@ void dds_publisher::publish(const gateway_status& status)
     fill_string(out.version, state_->who.version);
     fill_string(out.config_hash, state_->who.config_hash);
     state_->count(dds_write(state_->statuses, &out));
+}
+
+void dds_publisher::publish(const serial_message& message)
+{
+    plcgw_v1_SerialMessage out{};
+    fill_string(out.gateway, state_->who.gateway);
+    fill_string(out.member, state_->who.member);
+    fill_string(out.line, message.line);
+    out.seq = ++state_->messages_of[message.line];
+    out.source_ns = static_cast<std::int64_t>(message.when);
+    out.way = message.way == message_direction::sent ? plcgw_v1_MESSAGE_SENT : plcgw_v1_MESSAGE_RECEIVED;
+    fill_string(out.name, message.name);
+    fill_string(out.reason, message.reason);
+    out.content._length = out.content._maximum = static_cast<std::uint32_t>(message.content.size());
+    out.content._buffer = const_cast<std::uint8_t*>(message.content.data());  // dds_write only reads it
+    state_->count(dds_write(state_->messages, &out));
 }
 
 void dds_publisher::dispose(const sample& key)

@@ -5,6 +5,7 @@
 #include "bridge/dds/gateway_status.hpp"
 #include "bridge/dds/settings.hpp"
 #include "bridge/sample.hpp"
+#include "bridge/serial_message.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -25,6 +26,7 @@ public:
     // than 64 bytes (area: 32) is cut.
     void publish(const sample& s);
     void publish(const gateway_status& status);
+    void publish(const serial_message& message);  // an event: who subscribes later does not get it
 
     // The route of this sample went away: readers see its instance disposed. Only the key is looked at.
     void dispose(const sample& key);

@@ -4,6 +4,7 @@
 #include "bridge/dds/domain.hpp"
 #include "bridge/dds/log_capture.hpp"
 #include "bridge/dds/quality_code.hpp"
+#include "messages.h"
 #include "registers.h"
 
 #include <dds/dds.h>
@@ -12,6 +13,7 @@
 #include <cerrno>
 #include <cstring>
 #include <sys/eventfd.h>
+#include <type_traits>
 #include <unistd.h>
 
 namespace plcgw {
@@ -22,6 +24,15 @@ void wake(int descriptor)
 {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
+}
+
+// More than a writer keeps: what came while we were drawing is still there.
+qos_ptr message_reader_qos()
+{
+    constexpr std::int32_t kept = 8192;
+    qos_ptr qos = event_qos();
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept);
+    return qos;
 }
 
 void on_data(dds_entity_t, void* descriptor) { wake(*static_cast<int*>(descriptor)); }
@@ -55,6 +66,18 @@ dds_event received(const plcgw_v1_GatewayStatus& in)
     return out;
 }
 
+dds_event received(const plcgw_v1_SerialMessage& in)
+{
+    received_message out{text(in.gateway), text(in.member), in.seq, {}};
+    out.value.line = text(in.line);
+    out.value.way = in.way == plcgw_v1_MESSAGE_SENT ? message_direction::sent : message_direction::received;
+    out.value.name = text(in.name);
+    out.value.reason = text(in.reason);
+    out.value.content.assign(in.content._buffer, in.content._buffer + in.content._length);
+    out.value.when = wall_time{in.source_ns};
+    return out;
+}
+
 dds_event gone(const plcgw_v1_RegisterBlock& key, gone_reason reason)
 {
     return gone_block{text(key.gateway), text(key.route), text(key.area), key.first, reason};
@@ -64,6 +87,10 @@ dds_event gone(const plcgw_v1_GatewayStatus& key, gone_reason reason)
 {
     return gone_gateway{text(key.gateway), text(key.member), reason};
 }
+
+// An event has no instance that could go away.
+template <class Topic>
+constexpr bool is_state = !std::is_same_v<Topic, plcgw_v1_SerialMessage>;
 
 // One loan of Cyclone; false when the reader is empty.
 template <class Topic>
@@ -82,10 +109,12 @@ bool take_some(dds_entity_t reader, std::vector<dds_event>& events)
         if (info.valid_data)
             events.push_back(received(in));
         // The last value and the end of its writer can come as one sample.
-        if (info.instance_state != DDS_ALIVE_INSTANCE_STATE && info.sample_rank == 0)
-            events.push_back(gone(in, info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE
-                                          ? gone_reason::disposed
-                                          : gone_reason::writer_lost));
+        if constexpr (is_state<Topic>) {
+            if (info.instance_state != DDS_ALIVE_INSTANCE_STATE && info.sample_rank == 0)
+                events.push_back(gone(in, info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE
+                                              ? gone_reason::disposed
+                                              : gone_reason::writer_lost));
+        }
     }
     dds_return_loan(reader, samples.data(), taken);
     return true;
@@ -98,6 +127,7 @@ struct dds_subscriber::state {
     std::unique_ptr<dds_participant> participant;
     dds_entity_t blocks{};    // reader of RegisterBlock
     dds_entity_t statuses{};  // reader of GatewayStatus
+    dds_entity_t messages{};  // reader of SerialMessage
 
     ~state()
     {
@@ -125,14 +155,18 @@ dds_result<dds_subscriber> dds_subscriber::create(const dds_settings& settings)
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
         dds_create_listener(&made->descriptor), dds_delete_listener);
     dds_lset_data_available(listener.get(), on_data);
-    const auto create_reader = [&](const dds_topic_descriptor_t& type, const char* name) {
+    const auto create_reader = [&](const dds_topic_descriptor_t& type, const char* name, const qos_ptr& qos) {
         const dds_entity_t topic = dds_create_topic(parent, &type, name, nullptr, nullptr);
-        return topic < 0 ? topic : dds_create_reader(subscriber, topic, state_qos().get(), listener.get());
+        return topic < 0 ? topic : dds_create_reader(subscriber, topic, qos.get(), listener.get());
     };
-    made->blocks = create_reader(plcgw_v1_RegisterBlock_desc, register_block_topic);
+    // First: who hears the registers does not miss a message from then on.
+    made->messages = create_reader(plcgw_v1_SerialMessage_desc, serial_message_topic, message_reader_qos());
+    if (made->messages < 0)
+        return creation_error("DDS reader of SerialMessage", made->messages, log.text());
+    made->blocks = create_reader(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
     if (made->blocks < 0)
         return creation_error("DDS reader of RegisterBlock", made->blocks, log.text());
-    made->statuses = create_reader(plcgw_v1_GatewayStatus_desc, gateway_status_topic);
+    made->statuses = create_reader(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
     if (made->statuses < 0)
         return creation_error("DDS reader of GatewayStatus", made->statuses, log.text());
     return dds_subscriber(std::move(made));
@@ -154,7 +188,8 @@ std::vector<dds_event> dds_subscriber::take(std::size_t most)
     bool more = true;
     while (more && events.size() < most) {
         const bool statuses = take_some<plcgw_v1_GatewayStatus>(state_->statuses, events);
-        more = take_some<plcgw_v1_RegisterBlock>(state_->blocks, events) || statuses;
+        const bool messages = take_some<plcgw_v1_SerialMessage>(state_->messages, events);
+        more = take_some<plcgw_v1_RegisterBlock>(state_->blocks, events) || statuses || messages;
     }
     if (more)
         wake(state_->descriptor);

@@ -26,7 +26,10 @@ void check(const gateway_config& c, const located_json& file, const std::string&
     check_plcs(context);
     check_lines(context);
     check_stations(context);
-    check_routes(context);
+    device_check devices(context);
+    occupied_devices occupied;
+    check_routes(context, devices, occupied);
+    check_messages(context, devices, occupied);
     check_servers(context);
     check_dds(context);
 }

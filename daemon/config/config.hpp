@@ -3,6 +3,7 @@
 
 #include "bridge/dds/settings.hpp"
 #include "bridge/routes/route.hpp"
+#include "daemon/config/message_config.hpp"
 #include "daemon/config/mewtocol_config.hpp"
 #include "protocols/serial_timing.hpp"
 
@@ -49,7 +50,14 @@ struct unit_config {
     unsigned channel = 1;    // of the PLC, on a serial line: whose special devices show the communication
 };
 
-enum class line_protocol : std::uint8_t { modbus_rtu, modbus_ascii, modbus_tcp, mewtocol_com, mewtocol7_com };
+enum class line_protocol : std::uint8_t {
+    modbus_rtu,
+    modbus_ascii,
+    modbus_tcp,
+    mewtocol_com,
+    mewtocol7_com,
+    general_purpose,
+};
 
 constexpr bool is_mewtocol(line_protocol p)
 {
@@ -80,6 +88,7 @@ struct line_config {
     local_echo echo = local_echo::automatic;
     unsigned max_outstanding = 1;  // of MODBUS TCP
     mewtocol_config mewtocol;
+    general_purpose_config messages;  // of a general-purpose line
 };
 
 struct station_config {

@@ -3,17 +3,15 @@
 #pragma once
 
 #include "daemon/config/config.hpp"
+#include "daemon/config/message_fields.hpp"
 #include "daemon/config/mewtocol_fields.hpp"
-
-#include <utility>
 
 namespace plcgw::config {
 
-inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu},
-                                                           {"modbus-ascii", line_protocol::modbus_ascii},
-                                                           {"modbus-tcp", line_protocol::modbus_tcp},
-                                                           {"mewtocol-com", line_protocol::mewtocol_com},
-                                                           {"mewtocol7-com", line_protocol::mewtocol7_com}};
+inline constexpr choice<line_protocol> line_protocols[] = {
+    {"modbus-rtu", line_protocol::modbus_rtu},       {"modbus-ascii", line_protocol::modbus_ascii},
+    {"modbus-tcp", line_protocol::modbus_tcp},       {"mewtocol-com", line_protocol::mewtocol_com},
+    {"mewtocol7-com", line_protocol::mewtocol7_com}, {"general-purpose", line_protocol::general_purpose}};
 inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
 inline constexpr choice<server_framing> server_framings[] = {
     {"tcp", server_framing::tcp}, {"rtu", server_framing::rtu}, {"ascii", server_framing::ascii}};
@@ -83,7 +81,7 @@ void describe(Visitor& v, line_config& c)
                text{});
     v.optional("port", c.port, "TCP port of the host", range{1, 65'535});
     v.optional("protocol", c.protocol,
-               "What is spoken on the line; with a host, all but modbus-tcp mean that a device server passes it on",
+               "What is spoken on the line; with a host, all but modbus-tcp mean a serial device server",
                line_protocols);
     v.optional("role", c.role, "client: the gateway asks the stations; server: it answers, for the units below",
                line_roles);
@@ -109,6 +107,7 @@ void describe(Visitor& v, line_config& c)
     v.optional("local_echo", c.echo, "Whether the adapter returns what it sends; auto finds out at the first read",
                local_echoes);
     v.optional("max_outstanding", c.max_outstanding, "Requests under way at a time, modbus-tcp only", range{1, 64});
+    v.optional("general_purpose", c.messages, "Of a general-purpose line: its messages, and what becomes of them");
 }
 
 template <class Visitor>

@@ -1,6 +1,7 @@
-// What a value of the configuration may be.
+// What may be said of a key in fields.hpp: the values that it takes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 

@@ -21,9 +21,9 @@ constexpr auto table = make_table();
 
 }  // namespace
 
-std::uint16_t crc16(bytes data)
+std::uint16_t crc16(bytes data, std::uint16_t before)
 {
-    std::uint16_t crc = 0xFFFF;
+    std::uint16_t crc = before;
     for (const std::uint8_t byte : data)
         crc = static_cast<std::uint16_t>(crc >> 8 ^ table[(crc ^ byte) & 0xFF]);
     return crc;

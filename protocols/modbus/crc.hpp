@@ -5,7 +5,8 @@
 
 namespace plcgw::modbus {
 
-std::uint16_t crc16(bytes data);  // sent low byte first
+// Sent low byte first. `before` is the CRC of the bytes that came before these.
+std::uint16_t crc16(bytes data, std::uint16_t before = 0xFFFF);
 
 inline bool crc_fits(bytes adu) { return crc16(adu) == 0; }  // over data and its own CRC the remainder is zero
 

@@ -27,6 +27,15 @@ length counted(const length_rule& rule, std::size_t count)
     return count == 0 || count % rule.step != 0 ? 0 : rule.size + count;
 }
 
+length counted_items(const length_rule& rule, bytes begin)
+{
+    if (begin.size() <= rule.count_at)
+        return std::nullopt;
+    const std::uint16_t items = read_word(begin, rule.count_at - 2U);
+    const std::size_t count = begin[rule.count_at];
+    return count == (rule.step == 2 ? 2U * items : packed_size(items)) ? counted(rule, count) : 0;
+}
+
 // Function, MEI type, access, conformity, more, next object, number of objects; each object: id, size, bytes.
 length identification_response(const length_rule& rule, bytes begin)
 {
@@ -47,6 +56,7 @@ length length_by(const length_rule& rule, bytes begin)
     case shape::unknown: return 0;
     case shape::fixed: return rule.size;
     case shape::counted: return begin.size() <= rule.count_at ? length{} : counted(rule, begin[rule.count_at]);
+    case shape::counted_items: return counted_items(rule, begin);
     case shape::counted_word:
         return begin.size() <= rule.count_at + 1U ? length{} : counted(rule, read_word(begin, rule.count_at));
     case shape::identify:

@@ -67,12 +67,15 @@ void rtu_bus_framer::look(time_point now)
 // A neighbour's frame, or either of two. A CRC of 16 bits fits by chance now and then: what follows confirms it.
 void rtu_bus_framer::decide(const bus_verdict& v)
 {
+    using answer = rtu_bus_parser::answer;
     const bytes all = received_;
-    if (parser_.is_answered(all, *v.fits))
+    const answer first = parser_.answer_behind(all, *v.fits);
+    const answer second = v.or_else ? parser_.answer_behind(all, *v.or_else) : answer::none;
+    if (first == answer::whole)
         take(*v.fits);
-    else if (v.or_else && parser_.is_answered(all, *v.or_else))
+    else if (second == answer::whole)
         take(*v.or_else);
-    else if (v.open)
+    else if (v.open || first == answer::begun || second == answer::begun)
         return;
     else if (parser_.is_followed(all, *v.fits))
         take(*v.fits);

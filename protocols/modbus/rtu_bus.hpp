@@ -1,33 +1,31 @@
-// Everything that is said on an RTU line where we are server and others are too. MODBUS over Serial Line V1.02
-// section 2.5.1.
+// Everything that is said on an RTU line where we are server and others are too. MODBUS over Serial Line V1.02 section
+// 2.5.1.
 //
-// Silence cannot be trusted to separate frames: USB adapters glue and split what they deliver. So the bytes themselves
-// are read: who was asked what is remembered, and tells what the next frame can be.
+// Silence cannot be trusted to separate frames: USB adapters glue and split what they deliver. So the bytes are read:
+// the function table tells lengths, the CRC confirms them, and who was asked what tells what comes next.
 //
-// - After a silence, and after each whole frame, the next byte begins a frame (the framer is "in step"). There a
-// request
-//   to one of our stations is recognised with its last byte. A neighbour's frame may be the response to the last
-//   request, another response, or a request; it is decided when its CRC fits at the length of one, and no longer one
-//   can come.
-// - A frame with our unit id is never a response: we send those ourselves. (Where the adapter echoes what we send, put
-//   an echo_filter before this.) So 05, 06, 08 and 16 cannot be confused: the echo of a neighbour is the neighbour's.
-// - What fits nothing is kept until the line falls silent. All of it together is then a frame of unknown length, or
-// else
-//   the earliest place counts from which whole frames reach to the silence: noise before a request costs the silence as
-//   delay, not the request. A request to us cannot be anywhere else, since the client waits for us after it; one that
-//   lies in the data of a neighbour's damaged frame is followed at least by that frame's CRC.
-// - Meanwhile an exchange of neighbours (a request and the response that fits it) brings the framer back without
-// silence;
-//   but until the next silence it then believes in no request to us before silence has followed it.
+// - After a silence, and behind each whole frame, the next byte begins a frame: the framer is in step. There a request
+//   to one of our stations, or to all, is recognised with its last byte.
+// - A neighbour's frame is the response to the last request, another response, or a request. Nobody waits for us to say
+//   which, and 16 bits of CRC fit by chance now and then: it is decided when the next frame confirms it, or silence.
+// - What fits nothing is kept until silence. Then the earliest place counts from which whole frames reach to the
+//   silence: noise before a request to us costs the silence as delay, not the request. The request must be the last of
+//   them, for its client waits. So one in the data of a neighbour's damaged frame is not taken: a CRC follows it.
+// - Meanwhile an exchange of neighbours, a request with the response that fits it, shows where frames begin. But until
+//   the next silence no request to us is believed before silence has followed it.
+// - A frame of unknown length (unknown function, 08/00 with more than one word, wrong byte count) ends with silence.
+// - A frame with our unit id is a request to us, except for exceptions: responses with our unit id are ours to send.
+//   What comes behind a request to us is a request again. Where the adapter echoes, put an echo_filter before this.
 //
-// What remains open, and how it is settled:
-// - a neighbour's frame that is cut off exactly behind a request to us in its own data: it is taken for that request.
-// The
-//   same bytes come when our receiver lost a part of a response and the client went on at once, which is far likelier.
-// - a broadcast, out of step, that is followed by other frames sooner than by silence: it is missed.
-// - a request to us of unknown length (unknown function, 08/00 with more than one word) directly behind noise: missed.
-// - a neighbour's request and the response to it have the same bytes and length (05, 06 ...): the first after another
-//   request or response is the request, the second the response.
+// What the bytes leave open, and how it is settled:
+// - 05, 06, 08 and 16: the neighbour's response equals the request. The first of the two is the request.
+// - A frame and 00 behind it have a right CRC together. Where both are possible (a response that nobody asked for, a
+//   request to all) what follows decides; at last it is the request.
+// - A neighbour's frame that is cut off exactly behind a request to us in its own data is taken for that request: the
+//   same bytes come when we lost a part of a response and the client went on at once, which is far likelier.
+// - Out of step, a request to all that is followed by other frames sooner than by silence is missed. So is a request to
+//   us of unknown length directly behind noise.
+// - Requests to all that no client sends to all, such as reads, are believed only in step.
 #pragma once
 
 #include "protocols/framer.hpp"
@@ -55,7 +53,7 @@ public:
     using frame_type = bus_event;
 
     // max_silence: longer than 3.5 characters, longer than the adapter holds back a part of a frame, and shorter than
-    // the client waits for an answer.
+    // the client waits for an answer. The first silence is waited for, too.
     rtu_bus_framer(std::vector<unit_id> own, duration max_silence) : parser_(std::move(own)), max_silence_(max_silence)
     {
     }
@@ -64,10 +62,8 @@ public:
     std::optional<bus_event> next(time_point now);
     time_point deadline() const;
 
-    time_point heard() const
-    {
-        return heard_.value_or(time_point{});
-    }  // last byte: the gap before a reply begins there
+    // The last byte came then: the gap before a reply begins there.
+    time_point heard() const { return heard_.value_or(time_point{}); }
 
 private:
     void look(time_point now);

@@ -5,6 +5,7 @@
 #include "protocols/modbus/rtu.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace plcgw::modbus {
 namespace {
@@ -15,15 +16,21 @@ using length = std::optional<std::size_t>;
 constexpr std::size_t longest_glitch = 3;  // within an exchange: transceivers that turn round
 constexpr std::uint8_t exception_bit = 0x80;
 
-bool split(bytes adus, std::size_t from, std::vector<std::size_t>& ends)
+// Finds where frames end, from `from` on. A place from which it cannot be done is tried once.
+bool split(bytes adus, std::size_t from, std::vector<std::size_t>& ends, std::vector<bool>& tried)
 {
     if (from == adus.size())
         return true;
-    for (std::size_t to = from + shortest_adu; to <= adus.size() && to - from <= max_rtu_size; ++to) {
-        if (!crc_fits(adus.subspan(from, to - from)))
+    if (tried[from])
+        return false;
+    tried[from] = true;
+    std::uint16_t crc = 0xFFFF;
+    for (std::size_t to = from; to < adus.size() && to - from < max_rtu_size;) {
+        crc = crc16(adus.subspan(to++, 1), crc);
+        if (crc != 0 || to - from < shortest_adu)
             continue;
         ends.push_back(to);
-        if (split(adus, to, ends))
+        if (split(adus, to, ends, tried))
             return true;
         ends.pop_back();
     }
@@ -37,10 +44,25 @@ void compare(bytes rest, bus_verdict& v)
     const auto [shorter, longer] = std::minmax({v.fits->size, v.or_else->size});
     const bytes more = rest.subspan(shorter, longer - shorter);
     v.only_zeros = std::all_of(more.begin(), more.end(), [](std::uint8_t each) { return each == 0; });
-    if (!v.only_zeros && v.or_else->size > v.fits->size)
+    if (!v.only_zeros && !v.fits->awaited && v.or_else->size > v.fits->size)
         std::swap(v.fits, v.or_else);
-    if (shorter == longer)
+    const bool sure = v.fits->awaited && (!v.only_zeros || v.or_else->size < v.fits->size);
+    if (shorter == longer || sure)
         v.or_else.reset();
+}
+
+// Functions that a client sends to all: writes, and the commands among the diagnostics (V1.02 section 2.1, FX3
+// manual 7.1).
+bool is_for_all(bytes adu)
+{
+    constexpr std::uint8_t writes[] = {0x05, 0x06, 0x0F, 0x10, 0x15, 0x16};
+    constexpr std::uint8_t commands[] = {0x01, 0x03, 0x04, 0x0A};
+    const auto is_one_of = [](const auto& codes, std::uint8_t code) {
+        return std::find(std::begin(codes), std::end(codes), code) != std::end(codes);
+    };
+    if (adu[1] == static_cast<std::uint8_t>(function::diagnostics))
+        return adu.size() > 3 && adu[2] == 0 && is_one_of(commands, adu[3]);
+    return is_one_of(writes, adu[1]);
 }
 
 }  // namespace
@@ -50,10 +72,11 @@ bool is_frame(bytes adu) { return adu.size() >= shortest_adu && adu.size() <= ma
 std::vector<std::size_t> frame_ends(bytes adus)
 {
     std::vector<std::size_t> ends;
+    std::vector<bool> tried(adus.size());
     if (is_frame(adus))
         ends.push_back(adus.size());
     else
-        split(adus, 0, ends);
+        split(adus, 0, ends, tried);
     return ends;
 }
 
@@ -95,13 +118,13 @@ bus_verdict rtu_bus_parser::judge(bytes rest, const asked_question& asked) const
     };
     if (asked)
         consider(kind::response_adu, asked->response_in(rest), true);
-    if (v.fits)
-        return v;
+    const bool awaited = v.fits.has_value();
     consider(kind::request_adu, request_length(rest.subspan(1)), false);
-    if (!is_ours(rest))
+    if (!is_ours(rest) && !awaited)
         consider(kind::response_adu, response_length(rest.subspan(1)), false);
     if (v.or_else)
         compare(rest, v);
+    v.open = v.open && !awaited;
     return v;
 }
 
@@ -115,20 +138,40 @@ asked_question rtu_bus_parser::question_in(bytes adu) const
     return q;
 }
 
-bool rtu_bus_parser::is_answered(bytes rest, const bus_piece& front) const
+rtu_bus_parser::answer rtu_bus_parser::answer_behind(bytes rest, const bus_piece& front) const
 {
     const auto q = front.what == kind::request_adu ? question_in(rest.first(front.size)) : std::nullopt;
     for (std::size_t at = front.size; q && at < rest.size() && at <= front.size + longest_glitch; ++at) {
-        const auto second = judge(rest.subspan(at), q).fits;
+        const bytes behind = rest.subspan(at);
+        const auto second = judge(behind, q).fits;
         if (second && second->awaited)
-            return true;
+            return answer::whole;
+        const length size = behind.size() < 2 ? length{} : q->response_in(behind);
+        if (at == front.size && size != 0U && behind.size() < (size ? *size + rtu_overhead : max_rtu_size))
+            return answer::begun;
     }
-    return false;
+    return answer::none;
 }
 
 bool rtu_bus_parser::is_followed(bytes rest, const bus_piece& front) const
 {
-    return front.size < rest.size() && judge(rest.subspan(front.size), std::nullopt).fits.has_value();
+    if (front.size >= rest.size())
+        return false;
+    const bytes behind = rest.subspan(front.size);
+    const auto next = judge(behind, std::nullopt).fits;
+    return next && !nothing_may_follow(behind, *next);
+}
+
+// Zeros are frequent: out of step, not every function is believed to be a broadcast.
+bool rtu_bus_parser::is_plausible(bytes rest) const
+{
+    return unit_id{rest[0]} != unit_id::broadcast || !is_ours(rest) || is_for_all(rest);
+}
+
+// A client that asked us waits: what other bytes come behind, those were not a request to us.
+bool rtu_bus_parser::nothing_may_follow(bytes rest, const bus_piece& front) const
+{
+    return is_to_us(rest) && front.size < rest.size();
 }
 
 bool rtu_bus_parser::is_filled(bytes rest, const asked_question& asked) const
@@ -136,7 +179,7 @@ bool rtu_bus_parser::is_filled(bytes rest, const asked_question& asked) const
     if (rest.empty())
         return true;
     const bus_verdict v = judge(rest, asked);
-    if (!v.fits || (is_ours(rest) && v.fits->size < rest.size()))
+    if (!v.fits || nothing_may_follow(rest, *v.fits) || !is_plausible(rest))
         return false;
     return is_filled(rest.subspan(v.fits->size), asked) ||
            (v.or_else && is_filled(rest.subspan(v.or_else->size), asked));
@@ -167,7 +210,7 @@ bool rtu_bus_parser::ends_with_ours(bytes all) const
 {
     for (std::size_t from = 1; from + shortest_adu <= all.size(); ++from) {
         const bytes rest = all.subspan(from);
-        const auto found = is_ours(rest) ? judge(rest, std::nullopt).fits : std::nullopt;
+        const auto found = is_ours(rest) && is_plausible(rest) ? judge(rest, std::nullopt).fits : std::nullopt;
         if (found && found->size == rest.size())
             return true;
     }

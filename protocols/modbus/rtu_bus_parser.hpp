@@ -49,13 +49,15 @@ public:
     // The question that a neighbour's request is; nothing if it concerns us.
     asked_question question_in(bytes adu) const;
 
-    // The piece at the front is a neighbour's request, and its response comes behind it.
-    bool is_answered(bytes rest, const bus_piece& front) const;
+    // Whether the response to a neighbour's request comes behind it.
+    enum class answer : std::uint8_t { none, begun, whole };
+    answer answer_behind(bytes rest, const bus_piece& front) const;
+    bool is_answered(bytes rest, const bus_piece& front) const { return answer_behind(rest, front) == answer::whole; }
 
     // Any frame of known length comes behind the piece at the front.
     bool is_followed(bytes rest, const bus_piece& front) const;
 
-    // Frames of known length fill these bytes. Nothing comes behind a request that concerns us: the client waits.
+    // Frames of known length fill these bytes.
     bool is_filled(bytes rest, const asked_question& asked) const;
 
     // The earliest place from which frames of known length fill the rest, perhaps but for the glitch of a transceiver.
@@ -68,6 +70,9 @@ public:
     bool ends_with_ours(bytes all) const;
 
 private:
+    bool is_plausible(bytes rest) const;
+    bool nothing_may_follow(bytes rest, const bus_piece& front) const;
+
     std::vector<unit_id> own_;
 };
 

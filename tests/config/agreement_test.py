@@ -27,7 +27,19 @@ FULL = {
               {"name": "m", "host": "localhost", "port": 1503, "protocol": "modbus-tcp", "role": "client",
                "max_outstanding": 4, "local_echo": "off"},
               {"name": "n", "device": "/dev/ttyS1", "role": "server",
-               "units": [{"unit": 1, "plc": "a", "channel": 2, "line": "", "line_unit": 0}]}],
+               "units": [{"unit": 1, "plc": "a", "channel": 2, "line": "", "line_unit": 0}]},
+              {"name": "o", "device": "/dev/ttyS2", "protocol": "general-purpose", "general_purpose": {
+                  "start_code": "stx", "end_code": "etx", "end_silence_us": 0, "abandon_ms": 100, "send_wait_ms": 0,
+                  "received": [{"name": "raw", "plc": "a", "device": "D200", "count": 10, "ready": "M0",
+                                "when_full": "stop"}],
+                  "messages": [{"name": "weighing", "pattern": "{state:text(2)},{weight:number}kg", "plc": "a",
+                                "longest_silence_ms": 1000, "answer_to": "ask", "fields": [
+                                    {"name": "weight", "device": "D210", "type": "int32", "decimals": 1,
+                                     "word_order": "high-first"},
+                                    {"name": "state", "device": "D212", "type": "text", "characters": 2}]}],
+                  "sends": [{"name": "ask", "text": "W", "period_ms": 500, "answer": True, "response_timeout_ms": 100},
+                            {"name": "tell", "plc": "a", "device": "D220", "count": 10, "trigger": "M1"}],
+                  "status": {"plc": "a", "device": "D230", "reset": "M2"}}}],
     "stations": [{"name": "s", "line": "l", "unit": 1, "response_timeout_ms": 100, "retries": 0},
                  {"name": "t", "line": "l", "unit": 2}],
     "routes": [{"name": "r", "station": "s", "table": "input", "first": 0, "count": 2, "plc": "a", "device": "D100",
@@ -158,7 +170,8 @@ class EveryKey(unittest.TestCase):
                 self.assertEqual(schema_pointers(config), set())
                 lines = [line for line in self.check(config).lines if READER.search(line.split(": ", 1)[-1])]
                 # These are texts to the schema, and more to the cross-checks.
-                of_texts = re.compile(r"/(model|device|listen|peers/0) .*expected|program/\d+ unknown")
+                of_texts = re.compile(r"/(model|device|listen|peers/0) .*expected|program/\d+ unknown|"
+                                      r"fields/\d+ does not fit|pattern is wrong")
                 self.assertEqual([line for line in lines if not of_texts.search(line)], [])
 
     def test_required_keys(self):
@@ -267,6 +280,11 @@ ONLY_CHECK = {
     "a server without a PLC": '{"modbus_tcp": [{}]}',
     "a peer that is a host name": '{"dds": {"peers": ["plant-b"]}}',
     "7 data bits": '{"lines": [{"name": "l", "device": "d", "data_bits": 7}]}',
+    "a general-purpose line that does nothing": '{"lines": [{"name": "l", "device": "d", "protocol": '
+                                                '"general-purpose"}]}',
+    "a pattern with a mistake": '{"plcs": [{"name": "a"}], "lines": [{"name": "l", "device": "d", "protocol": '
+                                '"general-purpose", "general_purpose": {"messages": [{"name": "m", "plc": "a", '
+                                '"pattern": "W{x:numbr}"}]}}]}',
     "a word that is no instruction": '{"plcs": [{"name": "a", "program": ["HELLO"]}]}',
 }
 

@@ -6,6 +6,8 @@
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
+#include <functional>
+
 TEST_SUITE_BEGIN("reader");
 
 using namespace plcgw;
@@ -118,7 +120,12 @@ TEST_CASE("defaults: rows with their required keys alone")
 {
     const json config = written_config(R"({
         "plcs": [{"name": "a"}],
-        "lines": [{"name": "l", "device": "/dev/ttyS0"}],
+        "lines": [{"name": "l", "device": "/dev/ttyS0"},
+                  {"name": "g", "device": "/dev/ttyS1", "protocol": "general-purpose", "general_purpose": {
+                      "received": [{"name": "r", "plc": "a", "device": "D20", "count": 2}],
+                      "messages": [{"name": "m", "plc": "a", "pattern": "{n:number}",
+                                    "fields": [{"name": "n", "device": "D30"}]}],
+                      "sends": [{"name": "s", "text": "W", "period_ms": 10}]}}],
         "stations": [{"name": "s", "line": "l", "unit": 3}],
         "routes": [{"name": "r", "station": "s", "table": "input", "first": 5, "plc": "a", "device": "D7"}],
         "modbus_tcp": [{"units": [{"unit": 4, "plc": "a"}]}],
@@ -132,6 +139,20 @@ TEST_CASE("defaults: rows with their required keys alone")
     line["name"] = "l";
     line["device"] = "/dev/ttyS0";
     CHECK(config["lines"][0] == line);
+
+    const json& messages = config["lines"][1]["general_purpose"];
+    json received = written_defaults<received_config>();
+    received.update({{"name", "r"}, {"plc", "a"}, {"device", "D20"}, {"count", 2}});
+    CHECK(messages["received"][0] == received);
+    json field = written_defaults<field_config>();
+    field.update({{"name", "n"}, {"device", "D30"}});
+    json message = written_defaults<message_config>();
+    message.update({{"name", "m"}, {"plc", "a"}, {"pattern", "{n:number}"}});
+    message["fields"] = json::array({field});
+    CHECK(messages["messages"][0] == message);
+    json send = written_defaults<send_config>();
+    send.update({{"name", "s"}, {"text", "W"}, {"period_ms", 10}});
+    CHECK(messages["sends"][0] == send);
 
     json station = written_defaults<station_config>();
     station["name"] = "s";
@@ -179,11 +200,14 @@ TEST_CASE("defaults: the schema tells those of the structs")
     const auto row = [&](const char* list) { return schema_defaults(all.at(list).at("items")); };
 
     // Without the required keys and those that have no default.
-    const auto check_subset = [](const json& told, const json& defaults) {
+    const std::function<void(const json&, const json&)> check_subset = [&](const json& told, const json& defaults) {
         CHECK(told.size() >= 1);
         for (const auto& [key, value] : told.items()) {
             INFO(key);
-            CHECK(defaults.at(key) == value);
+            if (value.is_object())
+                check_subset(value, defaults.at(key));
+            else
+                CHECK(defaults.at(key) == value);
         }
     };
     check_subset(row("plcs"), written_defaults<plc_config>());

@@ -70,6 +70,46 @@ TEST_CASE("dds: a late subscriber gets the last value of every register at once,
     CHECK(events.size() == 51);
 }
 
+TEST_CASE("dds: every serial message arrives once, with all its bytes and its number")
+{
+    auto in = subscriber();
+    auto out = publisher();
+    std::vector<dds_event> events;
+    buffer all;
+    for (unsigned byte = 0; byte < 4096; ++byte)
+        all.push_back(static_cast<std::uint8_t>(byte));
+    serial_message message{"scale", message_direction::sent, "ask", "", all, wall_time{17}};
+    out.publish(message);
+    REQUIRE(collect(in, events, [](const auto& so_far) { return !only<received_message>(so_far).empty(); }));
+    for (unsigned i = 0; i < 100; ++i) {
+        message.content = {static_cast<std::uint8_t>(i)};
+        message.way = message_direction::received;
+        message.reason = "no pattern";
+        out.publish(message);
+    }
+    REQUIRE(collect(in, events, [](const auto& so_far) { return only<received_message>(so_far).size() >= 101; }));
+    CHECK(out.drops() == 0);
+    const auto messages = only<received_message>(events);
+    REQUIRE(messages.size() == 101);
+    CHECK(messages[0].value.content == all);
+    CHECK(messages[0].value.way == message_direction::sent);
+    CHECK(messages[0].value.name == "ask");
+    for (unsigned i = 0; i < messages.size(); ++i) {
+        CHECK(messages[i].gateway == "gw");
+        CHECK(messages[i].seq == i + 1);
+        CHECK(messages[i].value.line == "scale");
+        CHECK(messages[i].value.when == wall_time{17});
+        if (i > 0) {
+            CHECK(messages[i].value.content == buffer{static_cast<std::uint8_t>(i - 1)});
+            CHECK(messages[i].value.reason == "no pattern");
+            CHECK(messages[i].value.way == message_direction::received);
+        }
+    }
+    message.content.resize(4097);
+    out.publish(message);
+    CHECK(out.drops() == 1);
+}
+
 TEST_CASE("dds: a change of quality alone arrives")
 {
     auto in = subscriber();

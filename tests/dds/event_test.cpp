@@ -49,6 +49,13 @@ TEST_CASE("event text: values, lines, and nothing that steers a terminal")
     CHECK(line_of(status(3)) == "gateway gw, member m1: solo, routes 1/2 up");
     CHECK(line_of(gone_block{"gw", "speed", "holding", 100, gone_reason::disposed}) ==
           "- gw speed holding 100 gone: disposed");
+    serial_message message{"scale", message_direction::received, "weighing", "", {'1', 0x1B, 0xFF}, t0};
+    CHECK(line_of(received_message{"gw", "m1", 1, message}) ==
+          "2023-11-14T22:13:20.000Z gw scale received weighing: 1<ESC>\\xFF");
+    message.name.clear();
+    message.reason = "weighing: at byte 1\x1b";
+    CHECK(line_of(received_message{"gw", "m1", 1, message}) ==
+          "2023-11-14T22:13:20.000Z gw scale received -: 1<ESC>\\xFF REFUSED: weighing: at byte 1?");
     CHECK(printable("a\x1b[2Jb\x7f\u009bc\u00b5") == "a?[2Jb??c\u00b5");
     CHECK(printable("\xC2z") == "\xC2z");
 }

@@ -138,12 +138,13 @@ class Watch(Program):
         self.json_file = test.folder / f"{len(test.programs)}-watch.json"
         self.read_until = 0
         self.samples = []  # of registers, in the order of their arrival
+        self.heard = []    # messages of serial lines
+        self.statuses = []
         with open(self.json_file, "wb") as output:
             super().__init__(test, "watch", [binary("PLC_GATEWAY"), "watch", "--json", "--domain", dds["domain"],
                                              "--interface", dds["interface"], "--partition", dds["partition"]], output)
 
-    def of(self, route):
-        """All samples of a route so far."""
+    def read(self):
         with open(self.json_file, "rb") as output:
             output.seek(self.read_until)
             for line in output:
@@ -153,6 +154,25 @@ class Watch(Program):
                 event = json.loads(line)
                 if event["event"] == "registers":
                     self.samples.append(event)
+                if event["event"] == "status":
+                    self.statuses.append(event)
+                if event["event"] == "message":
+                    self.heard.append(event)
+
+    def connected(self):
+        """Waits until it hears the gateway, and so every message from then on."""
+        wait_for("the gateway is heard", lambda: self.read() or self.statuses)
+        return self
+
+    def messages(self, line, **wanted):
+        """All messages of a line so far that have these fields."""
+        self.read()
+        return [each for each in self.heard
+                if each["line"] == line and all(each[key] == value for key, value in wanted.items())]
+
+    def of(self, route):
+        """All samples of a route so far."""
+        self.read()
         return [each for each in self.samples if each["route"] == route]
 
     def latest(self, route):

@@ -43,7 +43,7 @@ lint_layers() {
     none "bridge does not include daemon" "$(includes '^bridge/' 'daemon/')"
     none "nothing that ships includes tests" "$(includes '^(protocols|bridge|daemon)/' 'tests/')"
     none "Cyclone DDS is known in bridge/dds only" \
-        "$(includes '^(protocols|bridge|daemon)/' '(dds/|ddsc|ddsrt|dds\.h|registers\.h)' '^bridge/dds/')"
+        "$(includes '^(protocols|bridge|daemon)/' '(dds/|ddsc|ddsrt|dds\.h|registers\.h|messages\.h")' '^bridge/dds/')"
     none "protocols and bridge know no sockets, logs or JSON" \
         "$(includes '^(protocols|bridge)/' '(boost/asio|spdlog|nlohmann|sys/socket\.h|termios\.h)')"
 }

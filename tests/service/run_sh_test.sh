@@ -30,10 +30,10 @@ comes_up() {
     printed 'Ctrl-C ends everything' || { cat "$output"; return 1; }
 }
 
-# Those of the pump's temperature, the meter's volts and the tank's level are never 0.
+# Those of the pump's temperature, the meter's volts, the tank's level and the scale's state are never 0.
 reads_registers() {
-    mbpoll -m tcp -p 1502 -a 1 -t 4 -r 101 -c 21 -1 127.0.0.1 >"$work/mbpoll" || { cat "$work/mbpoll"; return 1; }
-    [[ $(grep -cE '^\[(103|111|121)\]:[[:space:]]+[1-9]' "$work/mbpoll") -eq 3 ]]
+    mbpoll -m tcp -p 1502 -a 1 -t 4 -r 101 -c 33 -1 127.0.0.1 >"$work/mbpoll" || { cat "$work/mbpoll"; return 1; }
+    [[ $(grep -cE '^\[(103|111|121|133)\]:[[:space:]]+[1-9]' "$work/mbpoll") -eq 4 ]]
 }
 
 watches() {
@@ -77,7 +77,7 @@ leaves_nothing() {
 # --- without a terminal ---
 start "$source_dir/run.sh"
 check "it comes up" comes_up
-check "mbpoll reads what the three devices measure" within 10 reads_registers
+check "mbpoll reads what the three devices and the scale measure" within 10 reads_registers
 check "plc-gateway watch gets samples" watches
 check "a second one says who has the port" second_one_refuses
 check "the first one goes on" reads_registers

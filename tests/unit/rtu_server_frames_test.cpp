@@ -1,4 +1,5 @@
-// What a server makes of the frames on an RTU line: FX3 manual 7.2, 7.11.1 and 12.6 (errors 205 and 206).
+// What a server makes of the frames on an RTU line: FX3 manual 7.2, 7.11.1 and 12.6 (errors 205 and 206). What it makes
+// of damaged ones: damage_server_test.cpp.
 #include "protocols/modbus/rtu.hpp"
 #include "protocols/modbus/rtu_bus.hpp"
 #include "tests/support/every_cut.hpp"
@@ -60,32 +61,6 @@ TEST_CASE("rtu server: a request is taken at every cut, known or not, to us or t
     };
     for (const frame& each : requests)
         every_cut(encode_rtu(each), [&](const pieces& cut) { CHECK(receive(cut) == events{question(each)}); });
-}
-
-TEST_CASE("rtu server: of a request with one bit flipped, or one byte short, nothing is taken")
-{
-    const buffer adu = encode_rtu({us, {0x06, 0x00, 0x01, 0x00, 0x03}});
-    const auto check_dropped = [](const buffer& damaged) {
-        const events all = receive(pieces{bytes(damaged)});
-        std::size_t size = 0;
-        for (const bus_event& each : all) {
-            CHECK(each.what == bus_event::kind::dropped);
-            size += each.size;
-        }
-        CHECK(size == damaged.size());
-    };
-    for (std::size_t bit = 0; bit < 8 * adu.size(); ++bit) {
-        CAPTURE(bit);
-        buffer flipped = adu;
-        flipped[bit / 8] = static_cast<std::uint8_t>(flipped[bit / 8] ^ 1U << (bit % 8));
-        check_dropped(flipped);
-    }
-    for (std::size_t missing = 0; missing < adu.size(); ++missing) {
-        CAPTURE(missing);
-        buffer shorter = adu;
-        shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(missing));
-        check_dropped(shorter);
-    }
 }
 
 TEST_CASE("rtu server: three bytes are too short, 257 are too long, 256 are a frame")

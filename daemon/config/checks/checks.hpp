@@ -3,6 +3,7 @@
 
 #include "bridge/plc/memory.hpp"
 #include "daemon/config/checks/context.hpp"
+#include "daemon/config/checks/occupied.hpp"
 
 #include <map>
 
@@ -11,7 +12,6 @@ namespace plcgw::config {
 void check_plcs(check_context& c);
 void check_lines(check_context& c);
 void check_stations(check_context& c);
-void check_routes(check_context& c);
 void check_servers(check_context& c);
 void check_dds(check_context& c);
 
@@ -29,9 +29,11 @@ public:
     // row: with the keys "plc" and "device". Their place, or nothing and a complaint.
     std::optional<plc::place> place_of(const std::string& row, const std::string& plc, const std::string& device,
                                        std::size_t bits);
+    std::optional<plc::place> place_at(const std::string& plc_at, const std::string& device_at, const std::string& plc,
+                                       const std::string& device, std::size_t bits);
 
     // Complains when a place that place_of() found is not for others to fill: a PLC shows its communication there.
-    void check_filled(const std::string& row, const std::string& plc, plc::place at, std::size_t bits);
+    void check_filled(const std::string& device_at, const std::string& plc, plc::place at, std::size_t bits);
 
 private:
     const plc::memory& memory_of(const plc::model& model);
@@ -39,5 +41,10 @@ private:
     check_context& c_;
     std::map<const plc::model*, plc::memory> memories_;  // large: one for each model
 };
+
+void check_routes(check_context& c, device_check& devices, occupied_devices& occupied);
+
+// The messages of general-purpose lines.
+void check_messages(check_context& c, device_check& devices, occupied_devices& occupied);
 
 }  // namespace plcgw::config

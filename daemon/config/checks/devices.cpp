@@ -11,19 +11,25 @@ const plc::memory& device_check::memory_of(const plc::model& model)
 std::optional<plc::place> device_check::place_of(const std::string& row, const std::string& plc,
                                                  const std::string& device, std::size_t bits)
 {
-    c_.plc(plc, row + "/plc");
+    return place_at(row + "/plc", row + "/device", plc, device, bits);
+}
+
+std::optional<plc::place> device_check::place_at(const std::string& plc_at, const std::string& device_at,
+                                                 const std::string& plc, const std::string& device, std::size_t bits)
+{
+    c_.plc(plc, plc_at);
     const plc::model* const model = c_.model_of(plc);
     found_devices found = model == nullptr ? find_devices(device) : find_devices(memory_of(*model), device, bits);
     if (!found.mistake.empty())
-        c_.complain(row + "/device", std::move(found.mistake));
+        c_.complain(device_at, std::move(found.mistake));
     return found.at;
 }
 
-void device_check::check_filled(const std::string& row, const std::string& plc, plc::place at, std::size_t bits)
+void device_check::check_filled(const std::string& device_at, const std::string& plc, plc::place at, std::size_t bits)
 {
     std::string why = status_mistake(memory_of(*c_.model_of(plc)), at, bits);
     if (!why.empty())
-        c_.complain(row + "/device", std::move(why));
+        c_.complain(device_at, std::move(why));
 }
 
 }  // namespace plcgw::config

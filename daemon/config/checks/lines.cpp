@@ -24,17 +24,37 @@ void check_way(check_context& c, std::size_t i, const line_config& l, bool seria
         c.complain(item("lines", i, "host"), "stands beside \"device\": a line has one of them");
 }
 
+bool has_messages(const line_config& l)
+{
+    const general_purpose_config& g = l.messages;
+    return !g.received.empty() || !g.messages.empty() || !g.sends.empty();
+}
+
+void check_general_purpose_line(check_context& c, std::size_t i, const line_config& l)
+{
+    if (l.role == line_role::server)
+        c.complain(item("lines", i, "role"), "is server, which a general-purpose line cannot be");
+    if (!l.units.empty() && c.is_sound(item("lines", i)))
+        c.complain(item("lines", i, "units"), "stands at a general-purpose line, where nobody has a unit id");
+    if (!has_messages(l) && c.is_sound(item("lines", i)))
+        c.complain(item("lines", i), "does nothing: give \"general_purpose\" with received, messages or sends");
+}
+
 void check_line(check_context& c, port_users& users, com_port_users& com_ports, std::size_t i, const line_config& l)
 {
     const bool serial = l.protocol != line_protocol::modbus_tcp;
     if (c.is_sound(item("lines", i)))
         check_way(c, i, l, serial);
-    if (l.role == line_role::server)
+    if (l.protocol == line_protocol::general_purpose)
+        check_general_purpose_line(c, i, l);
+    else if (l.role == line_role::server)
         check_server_line(c, com_ports, i, l);
     else if (!l.units.empty() && c.is_sound(item("lines", i)))
         c.complain(item("lines", i, "units"), "stands at a client line: its stations are listed under \"stations\"");
     if (is_mewtocol(l.protocol))
         check_mewtocol(c, i, l);
+    if (l.protocol != line_protocol::general_purpose && has_messages(l) && c.is_sound(item("lines", i)))
+        c.complain(item("lines", i, "general_purpose"), "stands at a line whose \"protocol\" is not general-purpose");
     if (l.data_bits != 8 && l.protocol == line_protocol::modbus_rtu)
         c.complain(item("lines", i, "data_bits"), "is 7, but MODBUS RTU needs 8 data bits");
     if (l.device.empty())

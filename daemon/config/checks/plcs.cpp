@@ -52,7 +52,9 @@ void check_channels(check_context& c, std::size_t i, const plc_config& p, const 
     for (std::size_t n = 0; n < p.channels.size(); ++n) {
         const std::string at = item("plcs", i, "channels") + "/" + std::to_string(n);
         const auto* const line = c.line(p.channels[n].line, at + "/line");
-        if (line != nullptr && line->role != line_role::client)
+        if (line != nullptr && line->protocol == line_protocol::general_purpose)
+            c.complain(at + "/line", "is a general-purpose line: ADPRW cannot ask there");
+        else if (line != nullptr && line->role != line_role::client)
             c.complain(at + "/line", "is a server line: a PLC asks on a client line; on a server line give it a unit");
         const bool exists = std::any_of(model.channels.begin(), model.channels.end(), [&](const plc::channel& each) {
             return each.number == p.channels[n].channel && each.client;

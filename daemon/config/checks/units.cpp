@@ -22,7 +22,9 @@ void check_units(check_context& c, const std::string& list, const std::vector<un
 void check_client_line(check_context& c, const std::string& name, const std::string& at)
 {
     const auto* const line = c.line(name, at);
-    if (line != nullptr && line->role != line_role::client)
+    if (line != nullptr && line->protocol == line_protocol::general_purpose)
+        c.complain(at, "is a general-purpose line: nobody can be asked there");
+    else if (line != nullptr && line->role != line_role::client)
         c.complain(at, "is a server line: nobody can be asked there");
 }
 

@@ -1,0 +1,141 @@
+// The messages of one general-purpose line: what is sent next, and what a received message does to memory and quality.
+#pragma once
+
+#include "bridge/dds/log_limiter.hpp"
+#include "bridge/messages/line_rows.hpp"
+#include "bridge/messages/send_schedule.hpp"
+#include "bridge/messages/standing.hpp"
+#include "bridge/routes/modbus_line.hpp"
+#include "bridge/serial_message.hpp"
+
+namespace plcgw::messages {
+
+struct line_options {
+    std::string name;
+    general_purpose::message_form form;
+    general_purpose::exchange_options timing;  // each sending has its own response timeout
+    duration longest_silence{1'000'000};       // confirmed values are said again after it
+};
+
+// Words of the status area, each an unsigned 16-bit number that wraps.
+enum class status_word : std::uint8_t {
+    error_code,   // PMGET monitor information, D+2: bits of general_purpose::receive_error
+    error_count,  // PMGET monitor information, D+3
+    waiting,      // messages in the fullest of the receive buffers, 0 to 8
+    received,     // messages, refused ones too
+    refused,      // by all patterns
+    lost,         // not stored: all eight buffers full, or more bytes than the words hold
+    sent,
+    unanswered,  // sendings that got no answer, or could not be sent
+};
+inline constexpr std::size_t status_words = 8;
+
+class line_messages {
+public:
+    explicit line_messages(line_options options);
+
+    void add(raw_row row);
+    void add(message_row row);  // its pattern and fields fit
+    void add(send_row row);     // before the messages that are answers to it
+    void show_status_in(plc_block where);
+    void reset_by(plc_bit bit);  // its rise resets the channel (4.1, Y10)
+    void start(time_point now) { schedule_.start(now); }
+
+    const general_purpose::message_form& form() const { return options_.form; }
+    general_purpose::message_framer& framer() { return in_; }
+
+    struct question {
+        std::size_t send{};
+        buffer content;
+        buffer message;  // with the codes of the line
+        general_purpose::expect answer{};
+        general_purpose::exchange_options timing;
+    };
+
+    // What to send now. Also the time for what readers made room for, and for a channel reset.
+    std::optional<question> next(time_point now, wall_time wall);
+    time_point wake_at() const;
+
+    // Each question is told sent once it was, and ends in one of the others. attempts: that may be answered late.
+    void sent(const question& q, wall_time wall);
+    void answered(const question& q, const buffer& answer, time_point now, wall_time wall);
+    void failed(const question& q, boost::system::error_code why, time_point now, unsigned attempts);
+    void interrupted(const question& q) { schedule_.finished(q.send); }
+
+    void received(result<buffer> what, time_point now, wall_time wall);  // what the framer gave, unasked
+
+    void port_opened();
+    void port_lost();  // values stay, qualities change
+
+    // Somebody drained this change of a memory. True when next() has something to do.
+    bool memory_changed(const plc::simulated_plc& plc, const plc::change& changed, time_point now);
+
+    std::vector<sample> take_samples(time_point now);
+    void say_everything();
+    std::vector<serial_message> take_messages() { return std::exchange(messages_, {}); }
+    std::vector<line_event> take_events() { return std::exchange(events_, {}); }
+
+    const std::string& name() const { return options_.name; }
+    std::size_t routes_total() const { return raws_.size() + routes_.size(); }
+    std::size_t routes_up() const;  // of good quality, and those that may wait for ever and have nothing yet
+    void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;
+
+    std::uint16_t status(status_word which) const;
+
+private:
+    struct raw {
+        raw_row row;
+        general_purpose::receive_buffers buffers;
+        standing stands;
+        bool said_full = false;
+    };
+    struct route {
+        message_row row;
+        message_reader reader;
+        std::optional<std::size_t> brought_by;  // the sending whose answer came last
+        standing stands;
+    };
+    struct sending {
+        send_row row;
+        bool failing = false;  // and said so
+    };
+
+    void take(const buffer& message, std::optional<std::size_t> answer_to, time_point now, wall_time wall);
+    bool read(route& by, const buffer& message, std::optional<std::size_t> answer_to, time_point now, wall_time wall);
+    void refuse(const buffer& message, const std::string& reason, time_point now);
+    void fill(raw& of, time_point now, wall_time wall);
+    void look_at_buffers(raw& of);
+    result<outgoing> content_of(const send_row& row) const;
+    void not_answered(std::size_t send, const std::string& why);
+    void reset_channel();
+    void show_status();
+    void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
+    std::string label(const char* what, const std::string& name) const;
+
+    line_options options_;
+    general_purpose::message_framer in_;
+    general_purpose::receive_buffers port_;  // of errors only
+    std::vector<raw> raws_;
+    std::vector<route> routes_;
+    std::vector<sending> sends_;  // numbered like the schedule's sources
+    send_schedule schedule_;
+    std::vector<serial_message> messages_;
+    std::vector<line_event> events_;
+    log_limiter refusals_{1, std::chrono::seconds(10)};
+    log_limiter damages_{1, std::chrono::seconds(10)};
+    plc_block status_;
+    plc_bit reset_;
+    bool reset_level_ = false;
+    bool reset_due_ = false;
+    bool open_ = false;
+    bool work_due_ = false;     // next() has to look at the memory
+    bool absent_ = false;       // and said so
+    time_point quiet_until_{};  // late answers may come
+    std::uint64_t received_ = 0;
+    std::uint64_t refused_ = 0;
+    std::uint64_t too_long_ = 0;
+    std::uint64_t sent_ = 0;
+    std::uint64_t unanswered_ = 0;
+};
+
+}  // namespace plcgw::messages

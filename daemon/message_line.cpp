@@ -1,0 +1,169 @@
+#include "daemon/message_line.hpp"
+
+#include "daemon/log.hpp"
+
+#include <algorithm>
+
+namespace plcgw {
+
+using boost::system::error_code;
+using general_purpose::expect;
+
+namespace {
+
+// Behind a device server nothing is marked.
+general_purpose::marked_characters marks_of(const line_config& line)
+{
+    return general_purpose::marked_characters(line.check == parity::none ? errc::bad_stop_bit : errc::bad_parity);
+}
+
+}  // namespace
+
+message_line::message_line(asio::io_context& loop, line_config config, messages::line_messages messages,
+                           std::function<void()> settle)
+    : content(std::move(messages)), config_(std::move(config)), settle_(std::move(settle)),
+      connection_(make_connection(loop, config_)), marks_(marks_of(config_)), echo_(echo_of(config_))
+{
+}
+
+asio::awaitable<void> message_line::run()
+{
+    content.start(now());
+    for (;;) {
+        const bool is_open = co_await connection_->open();
+        if (is_open) {
+            marks_ = marks_of(config_);
+            echo_ = echo_filter(echo_of(config_) == local_echo::on ? local_echo::on : local_echo::off);
+            line_free_from_ = now() + config_.gap;
+            overruns_ = connection_->overruns();
+            say_what_is_not_seen();
+            content.port_opened();
+            const error_code ec = co_await serve();
+            connection_->close(ec);
+        }
+        content.port_lost();
+        settle_();
+    }
+}
+
+void message_line::say_what_is_not_seen()
+{
+    if (!overruns_ && !config_.device.empty() && !std::exchange(said_overruns_, true))
+        log::info("line {}: the driver of {} does not count lost characters: overruns are not seen", config_.name,
+                  config_.device);
+}
+
+void message_line::wake()
+{
+    if (idle_)
+        connection_->interrupt();
+}
+
+asio::awaitable<error_code> message_line::serve()
+{
+    for (;;) {
+        auto question = content.next(now(), wall_now());
+        error_code ec;
+        if (question)
+            ec = co_await exchange(std::move(*question));
+        else
+            ec = co_await listen();
+        if (ec)
+            co_return ec;
+    }
+}
+
+template <class Receiver>
+void message_line::feed(Receiver& into, bytes received)
+{
+    if (config_.device.empty()) {
+        into.feed(now(), echo_.feed(received));
+        return;
+    }
+    for (const auto& piece : marks_.feed(received)) {
+        if (const auto* characters = std::get_if<buffer>(&piece))
+            into.feed(now(), echo_.feed(*characters));
+        else
+            into.fault(now(), std::get<errc>(piece));
+    }
+}
+
+// Where in the stream they were lost is not known: the message that is being received, or the next one, is dropped.
+void message_line::look_for_overruns()
+{
+    const auto counted = connection_->overruns();
+    if (counted && overruns_ && *counted != *overruns_)
+        content.framer().fault(now(), errc::overrun);
+    overruns_ = counted;
+}
+
+asio::awaitable<error_code> message_line::listen()
+{
+    take_messages();  // what an exchange left
+    settle_();
+    const time_point until = std::min(content.wake_at(), content.framer().deadline());
+    idle_ = true;
+    const auto size = co_await connection_->read(until, asio::buffer(received_));
+    idle_ = false;
+    if (size) {
+        look_for_overruns();
+        feed(content.framer(), bytes(received_).first(*size));
+        line_free_from_ = std::max(line_free_from_, now() + config_.gap);
+    }
+    else if (size.error() != asio::error::timed_out)
+        co_return size.error();
+    take_messages();
+    co_return error_code{};
+}
+
+void message_line::take_messages()
+{
+    while (auto each = content.framer().next(now()))
+        content.received(std::move(*each), now(), wall_now());
+}
+
+asio::awaitable<error_code> message_line::exchange(messages::line_messages::question question)
+{
+    general_purpose::exchange asking(content.framer(), question.message, question.answer, question.timing,
+                                     line_free_from_, now());
+    for (;;) {
+        const auto action = asking.next(now());
+        if (std::holds_alternative<general_purpose::exchange::done>(action))
+            break;
+        error_code ec;
+        if (const auto* to_send = std::get_if<general_purpose::exchange::send>(&action)) {
+            const time_point started = now();
+            if (question.answer == expect::nothing)
+                echo_.sent(to_send->message, false);
+            ec = co_await connection_->write(to_send->message);
+            if (asking.attempts() == 0 && !ec)
+                content.sent(question, wall_now());
+            asking.sent(started);
+        }
+        else {
+            const time_point until = std::get<general_purpose::exchange::wait>(action).until;
+            const auto size = co_await connection_->read(until, asio::buffer(received_));
+            if (size)
+                feed(asking, bytes(received_).first(*size));
+            else if (size.error() != asio::error::timed_out)
+                ec = size.error();
+        }
+        if (ec) {
+            content.interrupted(question);
+            co_return ec;
+        }
+    }
+    line_free_from_ = asking.line_free_from();
+    for (auto& each : asking.take_others())
+        content.received(std::move(each), now(), wall_now());
+    for (unsigned i = 0; i < asking.unanswered(); ++i)
+        connection_->missed_answer();
+    if (const auto& outcome = asking.outcome())
+        content.answered(question, *outcome, now(), wall_now());
+    else
+        content.failed(question, outcome.error(), now(), asking.unanswered());
+    settle_();
+    co_return connection_->deaf() ? error_code(asio::error::timed_out) : error_code{};
+}
+
+}  // namespace plcgw
