@@ -2,6 +2,7 @@
 // connection. It is opened again when it comes back: absence is a normal state.
 #pragma once
 
+#include "daemon/bit_errors.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/read_before.hpp"
 #include "protocols/bytes.hpp"
@@ -29,9 +30,8 @@ public:
                                                                      asio::mutable_buffer into) = 0;
     virtual void interrupt() = 0;
 
-    // Characters with a wrong parity or stop bit, or that came too fast, since the last call; 0 where nobody counts
-    // them.
-    virtual std::uint64_t take_bit_errors() { return 0; }
+    // Since the last call; none where nobody counts them.
+    virtual bit_errors take_bit_errors() { return {}; }
 
     // Characters that the port lost since it exists; nothing where that is not known.
     virtual std::optional<std::uint64_t> overruns() { return std::nullopt; }

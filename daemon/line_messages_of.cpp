@@ -13,7 +13,7 @@ plc_block block_of(const std::string& name, plc::simulated_plc& plc, const std::
     plc_block block;
     block.name = name;
     block.plc = &plc;
-    block.head = *plc::parse_device(device);
+    block.head = *plc::parse_device(device, plc.model().names);
     block.at = *plc.memory().find(block.head);
     block.count = static_cast<std::uint32_t>(plc::is_bit_kind(block.head.kind) ? 16 * words : words);
     return block;
@@ -23,7 +23,7 @@ messages::plc_bit bit_of(plc::simulated_plc& plc, const std::string& device)
 {
     if (device.empty())
         return {};
-    return {&plc, *plc.memory().find(*plc::parse_device(device))};
+    return {&plc, *plc.memory().find(*plc::parse_device(device, plc.model().names))};
 }
 
 general_purpose::message_form form_of(const line_config& line)

@@ -75,7 +75,7 @@ error_code serial_connection::try_open()
     }
     opened_at_ = now();
     alive_ = false;
-    bit_errors_ = bit_errors_of(*fd).value_or(0);
+    bit_errors_ = bit_errors_of(*fd).value_or(bit_errors{});
     log::info("line {}: {} is open, {} {}{}{}", line_.name, line_.device, line_.baud_rate, line_.data_bits,
               line_.check == parity::none  ? 'N'
               : line_.check == parity::odd ? 'O'
@@ -88,9 +88,9 @@ error_code serial_connection::try_open()
     return {};
 }
 
-std::uint64_t serial_connection::take_bit_errors()
+bit_errors serial_connection::take_bit_errors()
 {
-    const std::uint64_t before = bit_errors_;
+    const bit_errors before = bit_errors_;
     bit_errors_ = bit_errors_of(port_.native_handle()).value_or(before);
     return bit_errors_ - before;
 }

@@ -20,7 +20,7 @@ public:
     asio::awaitable<boost::system::error_code> write(bytes adu) override;
     asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline, asio::mutable_buffer into) override;
     void interrupt() override { guard_.interrupt(); }
-    std::uint64_t take_bit_errors() override;
+    bit_errors take_bit_errors() override;
     std::optional<std::uint64_t> overruns() override;
     std::string absence() const override { return "port absent"; }
 
@@ -36,7 +36,7 @@ private:
     time_point opened_at_{};
     bool alive_ = false;  // something was heard since it was opened
     bool failed_at_once_ = false;
-    std::uint64_t bit_errors_ = 0;  // as the driver counted them last
+    bit_errors bit_errors_;  // as the driver counted them last
 };
 
 }  // namespace plcgw

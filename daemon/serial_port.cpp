@@ -82,13 +82,14 @@ boost::system::result<int> open_serial_port(const line_config& line, std::string
     return fd;
 }
 
-std::optional<std::uint64_t> bit_errors_of(int fd)
+std::optional<bit_errors> bit_errors_of(int fd)
 {
     serial_icounter_struct counters{};
     if (::ioctl(fd, TIOCGICOUNT, &counters) != 0)
         return std::nullopt;
-    return std::uint64_t{static_cast<unsigned>(counters.frame)} + static_cast<unsigned>(counters.parity) +
-           static_cast<unsigned>(counters.overrun);
+    return bit_errors{.overrun = static_cast<unsigned>(counters.overrun),
+                      .framing = static_cast<unsigned>(counters.frame),
+                      .parity = static_cast<unsigned>(counters.parity)};
 }
 
 std::optional<std::uint64_t> overruns_of(int fd)

@@ -2,6 +2,7 @@
 // RS-485 direction, exclusive use.
 #pragma once
 
+#include "daemon/bit_errors.hpp"
 #include "daemon/config/config.hpp"
 
 #include <boost/system/result.hpp>
@@ -15,9 +16,8 @@ namespace plcgw {
 // A pty keeps no parity and knows no RS-485. On a general-purpose line what is read is marked: marked_characters.hpp.
 boost::system::result<int> open_serial_port(const line_config& line, std::string& warning);
 
-// Characters with a wrong parity or stop bit and overruns, as the driver counts them; nothing where it does not, on a
-// pty for one.
-std::optional<std::uint64_t> bit_errors_of(int fd);
+// Since the driver counts; nothing where it does not, on a pty for one.
+std::optional<bit_errors> bit_errors_of(int fd);
 
 // Characters that were lost because nobody took them from the port in time; nothing where the driver does not count.
 std::optional<std::uint64_t> overruns_of(int fd);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bridge/services/modbus_station.hpp"
+#include "daemon/fp7_line_ports.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
 #include "protocols/echo_filter.hpp"
@@ -22,6 +23,11 @@ public:
     asio::awaitable<void> run() override;
     void wake() override {}
 
+    // The channel reset of an FP7's port: a request half heard and a reply not yet begun are given up.
+    void reset();
+
+    fp7_line_ports& ports() { return ports_; }  // that this line stands for
+
 private:
     modbus::bus_framer make_framer() const;
     asio::awaitable<boost::system::error_code> serve();  // until the port fails
@@ -34,6 +40,8 @@ private:
     std::unique_ptr<line_connection> connection_;
     echo_filter echo_;
     modbus::bus_framer in_;
+    unsigned resets_ = 0;
+    fp7_line_ports ports_;
     asio::steady_timer gap_;
     std::array<std::uint8_t, 1024> received_{};
 };

@@ -23,7 +23,8 @@ enum class errc {
     bad_parity,         // a character came with the wrong parity
     bad_stop_bit,       // a character came without its stop bit (framing error, break)
     overrun,            // characters came faster than the port was read
-    restarted,          // a start code came in the middle of a message and begins it anew
+    restarted,          // a start code, or the header of a new frame, came in the middle
+    not_expressible,    // the question does not fit into the fields of this protocol: nothing was sent
     bad_count,          // as many bytes as cannot be sent at once
 };
 

@@ -4,6 +4,7 @@
 #include "bridge/dds/settings.hpp"
 #include "bridge/routes/route.hpp"
 #include "daemon/config/message_config.hpp"
+#include "daemon/config/mewtocol_config.hpp"
 #include "protocols/serial_timing.hpp"
 
 #include <chrono>
@@ -49,7 +50,20 @@ struct unit_config {
     unsigned channel = 1;    // of the PLC, on a serial line: whose special devices show the communication
 };
 
-enum class line_protocol : std::uint8_t { modbus_rtu, modbus_ascii, modbus_tcp, general_purpose };
+enum class line_protocol : std::uint8_t {
+    modbus_rtu,
+    modbus_ascii,
+    modbus_tcp,
+    mewtocol_com,
+    mewtocol7_com,
+    general_purpose,
+};
+
+constexpr bool is_mewtocol(line_protocol p)
+{
+    return p == line_protocol::mewtocol_com || p == line_protocol::mewtocol7_com;
+}
+
 enum class line_role : std::uint8_t { client, server };
 
 struct line_config {
@@ -72,7 +86,8 @@ struct line_config {
     microseconds gap{0};  // 0 = 3.5 characters; 1.75 ms above 19200 bit/s
     milliseconds silence{20};
     local_echo echo = local_echo::automatic;
-    unsigned max_outstanding = 1;     // of MODBUS TCP
+    unsigned max_outstanding = 1;  // of MODBUS TCP
+    mewtocol_config mewtocol;
     general_purpose_config messages;  // of a general-purpose line
 };
 

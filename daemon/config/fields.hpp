@@ -4,13 +4,14 @@
 
 #include "daemon/config/config.hpp"
 #include "daemon/config/message_fields.hpp"
+#include "daemon/config/mewtocol_fields.hpp"
 
 namespace plcgw::config {
 
-inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu},
-                                                           {"modbus-ascii", line_protocol::modbus_ascii},
-                                                           {"modbus-tcp", line_protocol::modbus_tcp},
-                                                           {"general-purpose", line_protocol::general_purpose}};
+inline constexpr choice<line_protocol> line_protocols[] = {
+    {"modbus-rtu", line_protocol::modbus_rtu},       {"modbus-ascii", line_protocol::modbus_ascii},
+    {"modbus-tcp", line_protocol::modbus_tcp},       {"mewtocol-com", line_protocol::mewtocol_com},
+    {"mewtocol7-com", line_protocol::mewtocol7_com}, {"general-purpose", line_protocol::general_purpose}};
 inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
 inline constexpr choice<server_framing> server_framings[] = {
     {"tcp", server_framing::tcp}, {"rtu", server_framing::rtu}, {"ascii", server_framing::ascii}};
@@ -38,7 +39,7 @@ template <class Visitor>
 void describe(Visitor& v, plc_config& c)
 {
     v.required("name", c.name, "Name of the simulated PLC", name_rule);
-    v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22 or LS32", name_rule);
+    v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22, LS32 or FP7", name_rule);
     v.optional("program", c.program,
                "PLC program, one instruction per string: LD M8411, MOV H5002 D8470, ... and ADPRW lines", text{});
     v.optional("channels", c.channels, "Lines on which the PLC's own program is client");
@@ -60,12 +61,14 @@ void describe(Visitor& v, rs485_config& c)
 template <class Visitor>
 void describe(Visitor& v, unit_config& c)
 {
-    v.required("unit", c.unit, "MODBUS unit id", range{0, 255});
+    v.required("unit", c.unit, "MODBUS unit id, 0 to 255, or MEWTOCOL station", range{0, 999});
     v.optional("plc", c.plc, "Name of the simulated PLC that answers", text{0, 64});
     v.optional("line", c.line, "Or name of the line to which requests are forwarded", text{0, 64});
     v.optional("line_unit", c.line_unit, "Unit id on that line; 0 = the same", range{0, 255});
-    v.optional("channel", c.channel, "Channel of the PLC that a server line stands for: its special D and M show it",
-               range{1, 3});
+    v.optional("channel", c.channel,
+               "Channel of the PLC that a server line stands for: its special D and M show it. Of an FP7 the number of "
+               "the COM port",
+               range{0, 3});
 }
 
 template <class Visitor>
@@ -82,7 +85,8 @@ void describe(Visitor& v, line_config& c)
                line_protocols);
     v.optional("role", c.role, "client: the gateway asks the stations; server: it answers, for the units below",
                line_roles);
-    v.optional("units", c.units, "Of a server line: which unit id leads to which PLC");
+    v.optional("units", c.units, "Of a server line: which unit id or MEWTOCOL station leads to which PLC");
+    v.optional("mewtocol", c.mewtocol, "Of a MEWTOCOL line");
     v.optional("baud_rate", c.baud_rate, "Bits per second", range{300, 4'000'000});
     v.optional("data_bits", c.data_bits, "Data bits; RTU needs 8, ASCII takes 7 or 8", range{7, 8});
     v.optional("parity", c.check, "Parity bit", parities);
@@ -95,8 +99,10 @@ void describe(Visitor& v, line_config& c)
     v.optional("retries", c.retries, "Repetitions of a request that got no good answer", range{0, 20});
     v.optional("turnaround_delay_ms", c.turnaround_delay, "Milliseconds of silence after a broadcast",
                range{0, 32'767});
-    v.optional("gap_us", c.gap, "Microseconds of silence before a request; 0 = 3.5 characters, never less",
-               range{0, 16'382'000});
+    v.optional(
+        "gap_us", c.gap,
+        "Microseconds of silence before a request; 0 = 3.5 characters, never less. MEWTOCOL server: before a response",
+        range{0, 16'382'000});
     v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged frame; at least 50 with a host",
                range{1, 1000});
     v.optional("local_echo", c.echo, "Whether the adapter returns what it sends; auto finds out at the first read",
@@ -124,7 +130,8 @@ void describe(Visitor& v, route_config& c)
     v.required("first", c.first, "Protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
     v.optional("count", c.count, "Registers or bits", range{1, 2000});
     v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
-    v.required("device", c.device, "First device in its memory, for example D100, M0, X17 (octal)", text{2, 16});
+    v.required("device", c.device,
+               "First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, WR3 in an FP7", text{2, 16});
     v.optional("direction", c.way, "read: station to PLC, periodically; write: PLC to station, on change", directions);
     v.optional("period_ms", c.period, "Milliseconds from one read to the next", range{10, 86'400'000});
 }

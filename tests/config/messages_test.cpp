@@ -49,7 +49,7 @@ TEST_CASE("check: a general-purpose line")
     CHECK(said(weighbridge) == "");
     const change_row rows[] = {
         {R"("protocol": "general-purpose")", R"("protocol": "modbus-rtu")",
-         "6 /lines/1/general_purpose stands at a MODBUS line: \"protocol\" is not general-purpose"},
+         "6 /lines/1/general_purpose stands at a line whose \"protocol\" is not general-purpose"},
         {R"("protocol": "general-purpose",)", R"("protocol": "general-purpose", "role": "server",)",
          "5 /lines/1/role is server, which a general-purpose line cannot be"},
         {R"("line": "modbus")", R"("line": "scale")",

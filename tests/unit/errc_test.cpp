@@ -11,7 +11,8 @@ TEST_CASE("errc: every error says something of its own")
 {
     const errc all[] = {errc::bad_checksum,      errc::bad_header,     errc::incomplete,  errc::timed_out,
                         errc::unexpected_answer, errc::line_not_quiet, errc::port_absent, errc::bad_parity,
-                        errc::bad_stop_bit,      errc::overrun,        errc::restarted,   errc::bad_count};
+                        errc::bad_stop_bit,      errc::overrun,        errc::restarted,   errc::bad_count,
+                        errc::not_expressible};
     std::set<std::string> texts{"unknown error"};
     for (const errc each : all) {
         const boost::system::error_code code = each;

@@ -24,6 +24,7 @@ struct line_checker {
         const auto place = devices.place_at(plc_at, device_at, plc, device, bits);
         if (!place)
             return;
+        devices.check_filled(device_at, plc, *place, bits);
         for (const std::string& other : occupied.take(plc, *place, bits, who))
             c.complain(device_at, "overlaps with the devices of " + other + ": each device has one source");
     }
@@ -32,7 +33,7 @@ struct line_checker {
     {
         if (!devices.place_at(plc_at, at_bit, plc, bit, 1))
             return;
-        if (!plc::is_bit_kind(plc::parse_device(bit)->kind))
+        if (!plc::is_bit_kind(plc::parse_device(bit, c.model_of(plc)->names)->kind))
             c.complain(at_bit, "is " + bit + ", expected a bit such as M0");
     }
 
