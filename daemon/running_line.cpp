@@ -19,7 +19,7 @@ std::vector<station> stations_of(const gateway_config& all, const line_config& l
     return stations;
 }
 
-std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const line_config& line, modbus_line& routes,
+std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const line_config& line, client_line& routes,
                                          std::function<void()> settle)
 {
     if (line.protocol == line_protocol::modbus_tcp)

@@ -8,7 +8,7 @@ namespace plcgw {
 
 using boost::system::error_code;
 
-serial_line::serial_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle)
+serial_line::serial_line(asio::io_context& loop, line_config config, client_line& routes, std::function<void()> settle)
     : config_(std::move(config)), routes_(routes), settle_(std::move(settle)),
       connection_(make_connection(loop, config_)), gap_(std::max<duration>(config_.gap, frame_gap(format_of(config_))))
 {
@@ -39,7 +39,7 @@ void serial_line::wake()
 asio::awaitable<error_code> serial_line::serve()
 {
     for (;;) {
-        std::optional<modbus_line::question> question = routes_.next(now());
+        std::optional<client_line::question> question = routes_.next(now());
         error_code ec;
         if (question) {
             ec = co_await exchange(std::move(*question));
@@ -67,7 +67,7 @@ asio::awaitable<error_code> serial_line::listen_until(time_point deadline)
     co_return error_code{};
 }
 
-asio::awaitable<error_code> serial_line::exchange(modbus_line::question question)
+asio::awaitable<error_code> serial_line::exchange(client_line::question question)
 {
     if (echoes_ && question.timing.echo == local_echo::automatic)
         question.timing.echo = local_echo::on;

@@ -6,7 +6,7 @@ namespace plcgw {
 
 using boost::system::error_code;
 
-tcp_line::tcp_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle)
+tcp_line::tcp_line(asio::io_context& loop, line_config config, client_line& routes, std::function<void()> settle)
     : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), connection_(loop, config_)
 {
 }

@@ -1,6 +1,6 @@
 // A station that answers everything, but later than its response timeout. DECISIONS.md: a late answer is never stored
 // for another address, whatever the line makes of it.
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 #include "tests/support/plc_fixture.hpp"
 #include "tests/support/print.hpp"
 #include "tests/support/virtual_time.hpp"
@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    void exchange(const modbus_line::question& q)
+    void exchange(const client_line::question& q)
     {
         serial_transaction t(q.unit, q.request, q.timing, free_from_, now_);
         for (;;) {
@@ -106,7 +106,7 @@ private:
     bool one_by_one_;  // reads its next request when it has answered the one before
     time_point free_ = t0;
     serial_options timing_;
-    modbus_line routes_;
+    client_line routes_;
     time_point now_ = t0;
     time_point free_from_ = t0;
     std::deque<answer> on_their_way_;

@@ -1,4 +1,5 @@
-// The routes of one MODBUS line: which question goes out next, and what its answer does to memory and quality.
+// The routes of one line on which the gateway asks: which question goes out next, and what its answer does to memory and
+// quality.
 #pragma once
 
 #include "bridge/routes/forward_queue.hpp"
@@ -22,10 +23,10 @@ struct line_event {
     std::string text;
 };
 
-class modbus_line {
+class client_line {
 public:
     // timing: of requests to units that are no station of this line.
-    modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
+    client_line(std::string name, std::vector<station> stations, duration longest_silence,
                 const modbus::serial_options& timing = {});
 
     void add_route(route r, std::size_t station, duration period);

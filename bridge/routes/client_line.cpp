@@ -1,4 +1,4 @@
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 
 #include <algorithm>
 
@@ -25,7 +25,7 @@ std::string exception_text(modbus::exception_code code)
 
 }  // namespace
 
-modbus_line::modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
+client_line::client_line(std::string name, std::vector<station> stations, duration longest_silence,
                          const modbus::serial_options& timing)
     : name_(std::move(name)), stations_(std::move(stations)), schedule_(stations_.size()), timing_(timing),
       longest_silence_(longest_silence)
@@ -36,7 +36,7 @@ modbus_line::modbus_line(std::string name, std::vector<station> stations, durati
     }
 }
 
-void modbus_line::add_route(route r, std::size_t station, duration period)
+void client_line::add_route(route r, std::size_t station, duration period)
 {
     if (r.way == direction::read)
         schedule_.add_poll(station, period);
@@ -49,7 +49,7 @@ void modbus_line::add_route(route r, std::size_t station, duration period)
     added.period = period;
 }
 
-std::optional<forward_ticket> modbus_line::forward(modbus::unit_id unit, modbus::request request,
+std::optional<forward_ticket> client_line::forward(modbus::unit_id unit, modbus::request request,
                                                    std::optional<modbus::serial_options> timing)
 {
     const auto ticket = forwards_.add(unit, std::move(request), std::move(timing));
@@ -59,7 +59,7 @@ std::optional<forward_ticket> modbus_line::forward(modbus::unit_id unit, modbus:
 }
 
 // Forwarded requests and routes take turns when both want the line.
-std::optional<modbus_line::question> modbus_line::next(time_point now)
+std::optional<client_line::question> client_line::next(time_point now)
 {
     std::optional<question> chosen;
     if (!forwarded_last_)
@@ -74,7 +74,7 @@ std::optional<modbus_line::question> modbus_line::next(time_point now)
     return chosen;
 }
 
-std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
+std::optional<client_line::question> client_line::next_forward(time_point now)
 {
     while (!forwards_.empty()) {
         forward_request first = forwards_.take();
@@ -89,7 +89,7 @@ std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
     return std::nullopt;
 }
 
-std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_stranger) const
+std::uint8_t client_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_stranger) const
 {
     const auto told = delimiters_.find(unit);
     if (told == delimiters_.end())
@@ -97,7 +97,7 @@ std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_s
     return told->second.in_force ? told->second.character : modbus::ascii_delimiter;
 }
 
-void modbus_line::learn_delimiter(const question& q, const modbus::response& answer)
+void client_line::learn_delimiter(const question& q, const modbus::response& answer)
 {
     const auto* const asked = std::get_if<modbus::diagnostics>(&q.request);
     if (asked != nullptr && asked->what == modbus::diagnostic::change_ascii_delimiter && !asked->data.empty() &&
@@ -105,20 +105,20 @@ void modbus_line::learn_delimiter(const question& q, const modbus::response& ans
         delimiters_[q.unit] = {asked->data[0]};
 }
 
-void modbus_line::doubt_delimiter(modbus::unit_id unit)
+void client_line::doubt_delimiter(modbus::unit_id unit)
 {
     if (const auto told = delimiters_.find(unit); told != delimiters_.end())
         told->second.in_force = !told->second.in_force;
 }
 
-const station* modbus_line::find(modbus::unit_id unit) const
+const station* client_line::find(modbus::unit_id unit) const
 {
     const auto found =
         std::find_if(stations_.begin(), stations_.end(), [unit](const station& each) { return each.unit == unit; });
     return found == stations_.end() ? nullptr : &*found;
 }
 
-std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
+std::optional<client_line::question> client_line::next_poll(time_point now)
 {
     const auto turn = schedule_.next(now);
     if (!turn)
@@ -131,7 +131,7 @@ std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
     return q;
 }
 
-bool modbus_line::attempt_failed(const question& q, const modbus::answer_fault& why)
+bool client_line::attempt_failed(const question& q, const modbus::answer_fault& why)
 {
     const auto* const forwarded = std::get_if<forward_ticket>(&q.origin);
     if (forwarded != nullptr)
@@ -139,7 +139,7 @@ bool modbus_line::attempt_failed(const question& q, const modbus::answer_fault& 
     return forwarded != nullptr;
 }
 
-void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
+void client_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
                            unanswered_requests late)
 {
     learn_delimiter(q, answer);
@@ -169,7 +169,7 @@ void modbus_line::answered(const question& q, const modbus::response& answer, ti
     set_quality(of, quality::good, {});
 }
 
-void modbus_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
+void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
 {
     doubt_delimiter(q.unit);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
@@ -187,7 +187,7 @@ void modbus_line::failed(const question& q, boost::system::error_code why, time_
         station_down(of.station, why.message());
 }
 
-void modbus_line::interrupted(const question& q)
+void client_line::interrupted(const question& q)
 {
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin))
         forwards_.answer(*forwarded, make_error_code(errc::port_absent));
@@ -195,7 +195,7 @@ void modbus_line::interrupted(const question& q)
         schedule_.finished(std::get<schedule::turn>(q.origin), schedule::outcome::not_asked, {}, q.asked_at);
 }
 
-void modbus_line::port_lost(const std::string& why)
+void client_line::port_lost(const std::string& why)
 {
     for (row& each : routes_)
         lose(each, why);
@@ -204,13 +204,13 @@ void modbus_line::port_lost(const std::string& why)
 }
 
 // A value that nobody can renew now. What is only written is as good as it was.
-void modbus_line::lose(row& of, const std::string& why)
+void client_line::lose(row& of, const std::string& why)
 {
     if (of.content.way == direction::read)
         set_quality(of, quality::comm_error, why);
 }
 
-bool modbus_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
+bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
 {
     bool due = false;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
@@ -222,7 +222,7 @@ bool modbus_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
     return due;
 }
 
-std::vector<sample> modbus_line::take_samples(time_point now)
+std::vector<sample> client_line::take_samples(time_point now)
 {
     std::vector<sample> samples;
     for (row& each : routes_) {
@@ -238,20 +238,20 @@ std::vector<sample> modbus_line::take_samples(time_point now)
 }
 
 // A value that is not renewed although its station answers, because the line is overloaded.
-void modbus_line::age(row& of, time_point now)
+void client_line::age(row& of, time_point now)
 {
     const bool polled = of.content.way == direction::read;
     if (polled && of.content.state == quality::good && now - of.good_at > periods_until_stale * of.period)
         set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods");
 }
 
-void modbus_line::say_everything()
+void client_line::say_everything()
 {
     for (row& each : routes_)
         each.changed = true;
 }
 
-std::size_t modbus_line::routes_up() const
+std::size_t client_line::routes_up() const
 {
     return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(), [](const row& each) {
         const bool idle_write = each.content.way == direction::write && each.content.state == quality::never_read;
@@ -259,7 +259,7 @@ std::size_t modbus_line::routes_up() const
     }));
 }
 
-void modbus_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
+void client_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
 {
     const plc::change span{at.area, at.bit, bits};
     for (const row& each : routes_) {
@@ -271,7 +271,7 @@ void modbus_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place a
     }
 }
 
-void modbus_line::set_quality(row& of, quality state, const std::string& reason)
+void client_line::set_quality(row& of, quality state, const std::string& reason)
 {
     route& r = of.content;
     if (state == quality::device_error && (r.state != state || r.reason != reason))
@@ -284,7 +284,7 @@ void modbus_line::set_quality(row& of, quality state, const std::string& reason)
     r.reason = reason;
 }
 
-void modbus_line::station_down(std::size_t index, const std::string& reason)
+void client_line::station_down(std::size_t index, const std::string& reason)
 {
     note(line_event::severity::warning,
          label(stations_[index]) + " does not answer (" + reason + "): its values are kept, it is probed from now on");
@@ -293,7 +293,7 @@ void modbus_line::station_down(std::size_t index, const std::string& reason)
             lose(each, reason);
 }
 
-std::string modbus_line::label(const station& of) const
+std::string client_line::label(const station& of) const
 {
     return "line " + name_ + ", station " + of.name + " (unit " + std::to_string(modbus::number(of.unit)) + ")";
 }
