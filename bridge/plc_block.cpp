@@ -21,7 +21,7 @@ sample sample_of(const plc_block& b, wall_time now)
         if (b.plc->memory().bit({b.at.area, b.at.bit + i}))
             words[i / 16] = static_cast<std::uint16_t>(words[i / 16] | 1U << (i % 16));
     return {.route = b.name,
-            .area = std::string(plc::to_string(b.head.kind)),
+            .area = std::string(plc::to_string(b.head.kind, b.plc->model().names)),
             .first = b.head.number,
             .format = is_bits(b) ? sample_format::bits : sample_format::words,
             .count = b.count,

@@ -150,10 +150,10 @@ void gateway::make_blocks()
     for (const block_config& each : config_.dds.blocks) {
         plc_block block;
         block.plc = find_plc(each.plc);
-        block.head = *plc::parse_device(each.device);
+        block.head = *plc::parse_device(each.device, block.plc->model().names);
         block.at = *block.plc->memory().find(block.head);
         block.count = each.count;
-        block.name = each.plc + "." + plc::to_string(block.head);
+        block.name = each.plc + "." + plc::to_string(block.head, block.plc->model().names);
         blocks_.push_back({std::move(block), true});
     }
 }

@@ -1,6 +1,8 @@
 #include "daemon/link_time_command.hpp"
 
 #include "bridge/link_time.hpp"
+#include "bridge/plc_link.hpp"
+#include "bridge/plc_link_time.hpp"
 
 #include <fmt/core.h>
 
@@ -105,10 +107,51 @@ question read(const link_time_options& o)
     return {in, {}};
 }
 
+std::string mistake_in_link(const link_time_options& o)
+{
+    if (o.link_stations < 2 || o.link_stations > most_link_stations)
+        return "--plc-link is the number of stations, 2 to 16";
+    if (o.absent >= o.link_stations)
+        return "--absent leaves nobody: it is fewer than --plc-link";
+    if (o.relay_words.value_or(0) > link_block_relay_words || o.register_words.value_or(0) > link_block_registers)
+        return "--relay-words is at most 64, --register-words at most 128";
+    if (!(o.scan_ms > 0))
+        return "--scan is the scan time of each PLC in milliseconds, more than 0";
+    return {};
+}
+
+int show_plc_link(const link_time_options& o)
+{
+    if (const std::string mistake = mistake_in_link(o); !mistake.empty()) {
+        fmt::print(stderr, "{}\n", mistake);
+        return 1;
+    }
+    const link_load each{.relay_words = o.relay_words.value_or(link_block_relay_words / o.link_stations),
+                         .register_words = o.register_words.value_or(link_block_registers / o.link_stations),
+                         .scan = from_ms(o.scan_ms)};
+    const std::vector<link_load> joined(o.link_stations - o.absent, each);
+    const plc_link_time t =
+        round_time({.stations = joined, .master_scan = each.scan, .somebody_absent = o.absent != 0});
+    fmt::print("PLC link at {} bit/s, {} stations, {} of them absent, scan {} ms\n", plc_link_baud, o.link_stations,
+               o.absent, o.scan_ms);
+    fmt::print("T, the longest round\n");
+    print_part(
+        "Tpc", link_send_time(each),
+        fmt::format("{} bytes: {} relay words, {} registers", link_bytes(each), each.relay_words, each.register_words));
+    print_part("Ts", t.ts.front(), fmt::format("scan + Tpc, {} times", joined.size()));
+    print_part("Tlt", t.tlt, "link table");
+    print_part("Tso", t.tso, "scan of the master station");
+    print_part("Tlk", t.tlk, o.absent == 0 ? "nobody is absent" : "waits for those that are absent");
+    print_part("T", t.total(), "all Ts + Tlt + Tso + Tlk");
+    return 0;
+}
+
 }  // namespace
 
 int show_link_time(const link_time_options& options)
 {
+    if (options.link_stations != 0)
+        return show_plc_link(options);
     const question q = read(options);
     if (!q.wrong.empty()) {
         fmt::print(stderr, "{}\n", q.wrong);

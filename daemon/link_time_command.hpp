@@ -1,4 +1,5 @@
-// `plc-gateway linktime`: how long one question takes between two PLCs, part by part (FX3 manual 2.2).
+// `plc-gateway linktime`: how long one question takes between two PLCs, part by part (FX3 manual 2.2), or one round of
+// a PLC link of FP PLCs (FP7 manual 6.4).
 #pragma once
 
 #include <cstddef>
@@ -19,6 +20,11 @@ struct link_time_options {
     double server_delay_ms = 10;
     std::optional<std::size_t> request_bytes;  // instead of what function and count say
     std::optional<std::size_t> response_bytes;
+
+    unsigned link_stations = 0;           // 2 to 16: a PLC link; 0: a question
+    unsigned absent = 0;                  // of them
+    std::optional<unsigned> relay_words;  // that each sends; nothing: an equal share of the 64, and of the 128
+    std::optional<unsigned> register_words;
 };
 
 // Exit status: 0, or 1 when an option is wrong.

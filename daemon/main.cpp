@@ -91,6 +91,10 @@ void add_link_time(CLI::App& command, plcgw::link_time_options& o)
     command.add_option("--request", o.request_bytes, "Bytes of the request, instead of function and count")
         ->check(bytes);
     command.add_option("--response", o.response_bytes, "Bytes of the response, likewise")->check(bytes);
+    command.add_option("--plc-link", o.link_stations, "A round of a PLC link of so many FP PLCs, 2 to 16, instead");
+    command.add_option("--absent", o.absent, "Stations of the PLC link that are off")->capture_default_str();
+    command.add_option("--relay-words", o.relay_words, "Words of link relays that each sends; default: an equal share");
+    command.add_option("--register-words", o.register_words, "Link registers that each sends, likewise");
 }
 
 int run_command(int argc, char** argv)

@@ -127,6 +127,8 @@ bool answer_device(const simulated_plc& of, device d)
             where = fmt::format("bit {}", *each.bit);
         if (each.count == 2)
             where = "and the next, low word first";
+        else if (each.count > 2)
+            where = fmt::format("and the next {}, bit 0 first", each.count - 1);
         print_trimmed(fmt::format("{:<8} {:<17} {:<20} {:<15}  {}", plc::name_of(of.model(), d),
                                   words_of(each.at.table).name, number_text(each.at), reference_text(each.at), where));
     }
@@ -165,15 +167,38 @@ bool answer(const simulated_plc& of, map_address at)
     return true;
 }
 
-int answer_all(const plcs& of, const std::vector<plc::map_query>& queries)
+// Empty when some model can read the question: each has names of its own.
+std::string mistake_in(const plcs& of, const std::string& text)
 {
+    std::string first;
+    for (const auto& each : of) {
+        const auto query = plc::parse_map_query(text, each->model());
+        if (query)
+            return {};
+        if (first.empty())
+            first = query.error();
+    }
+    return first;
+}
+
+int answer_all(const plcs& of, const std::vector<std::string>& queries)
+{
+    for (const std::string& text : queries) {
+        const std::string mistake = mistake_in(of, text);
+        if (mistake.empty())
+            continue;
+        fmt::print(stderr, "{}\n", mistake);
+        return 1;
+    }
     std::vector<bool> answered(queries.size(), false);
     for (const auto& each : of) {
         if (of.size() > 1)
             print_header(*each);
-        for (std::size_t i = 0; i < queries.size(); ++i)
-            if (std::visit([&](const auto& q) { return answer(*each, q); }, queries[i]))
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const auto query = plc::parse_map_query(queries[i], each->model());
+            if (query && std::visit([&](const auto& q) { return answer(*each, q); }, *query))
                 answered[i] = true;
+        }
     }
     return std::find(answered.begin(), answered.end(), false) == answered.end() ? 0 : 1;
 }
@@ -230,20 +255,11 @@ plcs by_configuration(const map_options& options)
 
 int show_map(const map_options& options)
 {
-    std::vector<plc::map_query> queries;
-    for (const std::string& text : options.queries) {
-        const auto query = plc::parse_map_query(text);
-        if (!query) {
-            fmt::print(stderr, "{}\n", query.error());
-            return 1;
-        }
-        queries.push_back(*query);
-    }
     const plcs shown = options.model.empty() ? by_configuration(options) : by_model(options.model);
     if (shown.empty())
         return 1;
-    if (!queries.empty())
-        return answer_all(shown, queries);
+    if (!options.queries.empty())
+        return answer_all(shown, options.queries);
     for (const auto& each : shown)
         print_map(*each);
     return 0;

@@ -32,7 +32,7 @@ route make_route(const route_config& from, const find_plc& plc)
     route r;
     r.name = from.name;
     r.plc = &plc(from.plc);
-    r.at = *r.plc->memory().find(*plc::parse_device(from.device));
+    r.at = *r.plc->memory().find(*plc::parse_device(from.device, r.plc->model().names));
     r.table = from.table;
     r.first = modbus::address{static_cast<std::uint16_t>(from.first)};
     r.count = static_cast<std::uint16_t>(from.count);

@@ -7,15 +7,15 @@ namespace {
 
 const area* area_of(const model& m, device d)
 {
-    const auto found = std::find_if(m.areas.begin(), m.areas.end(), [d](const area& a) {
-        return a.kind == d.kind && d.number >= a.first && d.number - a.first < a.count;
-    });
+    const auto found =
+        std::find_if(m.areas.begin(), m.areas.end(), [d](const area& a) { return first_bit(a, d).has_value(); });
     return found == m.areas.end() ? nullptr : &*found;
 }
 
 // A run of bits in an area's image: what a row, or one number of it, leads to.
 struct run {
     const area* of;
+    device_kind as;  // the area's bits, or its words
     std::size_t first;
     std::size_t count;
 };
@@ -25,16 +25,17 @@ std::size_t step_of(const map_row& row) { return modbus::is_bit_table(row.table)
 run run_of(const model& m, const map_row& row)
 {
     const area* const of = area_of(m, row.head);
-    return {of, std::size_t{row.head.number - of->first} * of->bits_per_device, row.count * step_of(row)};
+    return {of, row.head.kind, *first_bit(*of, row.head), row.count * step_of(row)};
 }
 
 map_target target_of_run(const run& r)
 {
-    const std::size_t per_device = r.of->bits_per_device;
+    const std::size_t per_device = bits_of(*r.of, r.as);
+    const std::size_t bits = std::size_t{r.of->count} * r.of->bits_per_device;
     const std::size_t begin = std::max(r.first / per_device, std::size_t{r.of->absent});
-    const std::size_t end = std::min((r.first + r.count - 1) / per_device + 1, std::size_t{r.of->count});
+    const std::size_t end = std::min((r.first + r.count - 1) / per_device + 1, bits / per_device);
     const auto numbered = [&](std::size_t index) {
-        return device{r.of->kind, r.of->first + static_cast<std::uint32_t>(index)};
+        return device{r.as, r.of->first + static_cast<std::uint32_t>(index)};
     };
     map_target target{numbered(begin), numbered(end - 1)};
     if (per_device == 1)
@@ -49,14 +50,15 @@ std::optional<device_address> address_in(const model& m, const map_row& row, dev
     const run r = run_of(m, row);
     if (area_of(m, d) != r.of)
         return std::nullopt;
-    const std::size_t bit = std::size_t{d.number - r.of->first} * r.of->bits_per_device;
-    if (bit < r.first || bit >= r.first + r.count)
+    const std::size_t bit = *first_bit(*r.of, d);
+    const std::size_t size = bits_of(*r.of, d.kind);
+    if (bit < r.first || bit + size > r.first + r.count)
         return std::nullopt;
     const std::size_t distance = bit - r.first;
     device_address found{{row.table, row.first + static_cast<std::uint32_t>(distance / step_of(row))}, 1, {}};
-    if (r.of->bits_per_device == 32)
-        found.count = 2;
-    if (r.of->bits_per_device == 1 && step_of(row) == 16)
+    if (size > step_of(row))
+        found.count = static_cast<std::uint32_t>(size / step_of(row));
+    if (size == 1 && step_of(row) == 16)
         found.bit = static_cast<unsigned>(distance % 16);
     return found;
 }
@@ -93,7 +95,7 @@ map_target target_of(const model& m, const map_row& row) { return target_of_run(
 
 std::string name_of(const model& m, device d)
 {
-    std::string name = to_string(d);
+    std::string name = to_string(d, m.names);
     const bool timer = d.kind == device_kind::ts || d.kind == device_kind::tn || d.kind == device_kind::cs ||
                        d.kind == device_kind::cn;
     if (timer && m.timers == timer_names::plain)
@@ -109,10 +111,13 @@ std::string names_of(const model& m, device first, device last)
 std::string ranges_of(const model& m, device_kind kind)
 {
     std::string text;
-    for (const area& a : m.areas)
-        if (a.kind == kind)
-            text.append(text.empty() ? "" : ", ")
-                .append(names_of(m, {kind, a.first + a.absent}, {kind, a.first + a.count - 1}));
+    for (const area& a : m.areas) {
+        if (kind != a.kind && kind != a.words)
+            continue;
+        const auto devices = static_cast<std::uint32_t>(a.count * a.bits_per_device / bits_of(a, kind));
+        text.append(text.empty() ? "" : ", ")
+            .append(names_of(m, {kind, a.first + a.absent}, {kind, a.first + devices - 1}));
+    }
     return text;
 }
 

@@ -21,7 +21,7 @@ struct map_address {
 // Where a device is found.
 struct device_address {
     map_address at;
-    std::uint32_t count = 1;      // two registers for a 32-bit device, low word first
+    std::uint32_t count = 1;      // two registers for a 32-bit device, low word first; 16 coils for a word of contacts
     std::optional<unsigned> bit;  // inside the register, of a bit device
     bool operator==(const device_address&) const = default;
 };

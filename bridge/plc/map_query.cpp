@@ -86,30 +86,35 @@ answer parse_reference(std::string_view text)
 }
 
 // LS writes T and C for contacts and values alike.
-std::vector<device> parse_devices(std::string_view text)
+std::vector<device> parse_devices(std::string_view text, const model& m)
 {
-    if (const auto one = parse_device(text))
+    if (const auto one = parse_device(text, m.names))
         return {*one};
     std::vector<device> both;
     if (text.size() < 2 || (text[0] != 't' && text[0] != 'c'))
         return both;
     for (const char* kind : {"s", "n"})
-        if (const auto each = parse_device(std::string(text.substr(0, 1)) + kind + std::string(text.substr(1))))
+        if (const auto each =
+                parse_device(std::string(text.substr(0, 1)) + kind + std::string(text.substr(1)), m.names))
             both.push_back(*each);
     return both;
 }
 
-std::string wrong_device(const std::string& text)
+std::string wrong_device(const std::string& text, const model& m)
 {
-    if (text.size() > 1 && (text[0] == 'x' || text[0] == 'y') && all_digits(std::string_view(text).substr(1)))
-        return "X and Y are counted in octal: no digits 8 and 9";
-    return "expected a device (D8015, X17, CN200), a table with a number (hr:0, coil:0x1E00) or a reference (40001, "
-           "400001)";
+    const device_name* const row = find_name(text, m.names);
+    const std::string name(row == nullptr ? "" : row->name);
+    if (row != nullptr && row->digits == numbering::octal && all_digits(std::string_view(text).substr(name.size())))
+        return name + " is counted in octal: no digits 8 and 9";
+    if (row != nullptr && row->digits == numbering::word_and_bit)
+        return name + " is numbered by a decimal word and one hexadecimal digit for the bit: " + name + "1F";
+    return "expected a device such as " + std::string(m.examples) +
+           ", a table with a number (hr:0, coil:0x1E00) or a reference (40001, 400001)";
 }
 
 }  // namespace
 
-answer parse_map_query(std::string_view given)
+answer parse_map_query(std::string_view given, const model& m)
 {
     const std::string text = lower(given);
     const std::string quoted = "\"" + std::string(given) + "\": ";
@@ -123,9 +128,9 @@ answer parse_map_query(std::string_view given)
             return parse_reference(text);
         return quoted + "which table? Write hr:" + text + ", ir:, coil: or di:, or a reference of 5 or 6 digits";
     }
-    std::vector<device> devices = parse_devices(text);
+    std::vector<device> devices = parse_devices(text, m);
     if (devices.empty())
-        return quoted + wrong_device(text);
+        return quoted + wrong_device(text, m);
     return map_query{std::move(devices)};
 }
 

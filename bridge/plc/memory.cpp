@@ -44,11 +44,9 @@ void memory::close(image& of, std::size_t first_bit, std::size_t count)
 
 std::optional<place> memory::find(device d) const
 {
-    for (std::size_t i = 0; i < model_->areas.size(); ++i) {
-        const area& a = model_->areas[i];
-        if (a.kind == d.kind && d.number >= a.first && d.number - a.first < a.count)
-            return place{i, std::size_t{d.number - a.first} * a.bits_per_device};
-    }
+    for (std::size_t i = 0; i < model_->areas.size(); ++i)
+        if (const auto bit = first_bit(model_->areas[i], d))
+            return place{i, *bit};
     return std::nullopt;
 }
 

@@ -14,10 +14,17 @@ namespace plcgw::plc {
 // Devices of one kind with consecutive numbers. Special M and D are areas of their own, and so are 32-bit counters.
 struct area {
     device_kind kind;
-    std::uint32_t first;            // number of the first device
-    std::uint32_t count;            // devices
-    std::uint32_t bits_per_device;  // 1, 16 or 32
-    std::uint32_t absent = 0;       // the first so many do not exist: they fill up a register of bit devices
+    std::uint32_t first;                    // number of the first device
+    std::uint32_t count;                    // devices
+    std::uint32_t bits_per_device;          // 1, 16 or 32
+    std::uint32_t absent = 0;               // the first so many do not exist: they fill up a register of bit devices
+    std::optional<device_kind> words = {};  // another name for 16 of these bits: WX0 is X0-XF. Such areas begin at 0
+};
+
+// Devices with consecutive numbers.
+struct device_run {
+    device first;
+    std::uint32_t count;
 };
 
 // A run of MODBUS numbers and the devices behind it (FX3 manual 9.3). In a register table a bit area takes one register
@@ -57,6 +64,10 @@ struct model {
     error_style errors;
     format_style format;
     timer_names timers;
+    device_names names = fx_device_names;
+    std::string_view examples = "D100, M0 or X17 (octal)";  // of devices, for somebody who wrote none
+    bool programs = true;                                   // takes a setup program and ADPRW instructions
+    std::span<const device_run> status = {};                // where it shows its communication: not for routes to write
 };
 
 inline constexpr std::uint32_t special_first = 8000;  // M8000 and D8000: the system's own devices
@@ -64,6 +75,12 @@ inline constexpr std::uint32_t special_first = 8000;  // M8000 and D8000: the sy
 bool answers(const model& m, modbus::function f, transport over);
 
 bool exists(const model& m, device d);
+
+// The device's first bit in the image of an area; nothing when the area has no such device.
+std::optional<std::size_t> first_bit(const area& of, device d);
+
+// Bits that a device of this kind takes in an area that has it.
+std::size_t bits_of(const area& a, device_kind kind);
 
 const model* find_model(std::string_view name);  // upper or lower case; null when there is none
 std::span<const model* const> all_models();

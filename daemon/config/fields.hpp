@@ -59,7 +59,7 @@ template <class Visitor>
 void describe(Visitor& v, plc_config& c)
 {
     v.required("name", c.name, "Name of the simulated PLC", name_rule);
-    v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22 or LS32", name_rule);
+    v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22, LS32 or FP7", name_rule);
     v.optional("program", c.program,
                "PLC program, one instruction per string: LD M8411, MOV H5002 D8470, ... and ADPRW lines", text{});
     v.optional("channels", c.channels, "Lines on which the PLC's own program is client");
@@ -85,8 +85,10 @@ void describe(Visitor& v, unit_config& c)
     v.optional("plc", c.plc, "Name of the simulated PLC that answers", text{0, 64});
     v.optional("line", c.line, "Or name of the line to which requests are forwarded", text{0, 64});
     v.optional("line_unit", c.line_unit, "Unit id on that line; 0 = the same", range{0, 255});
-    v.optional("channel", c.channel, "Channel of the PLC that a server line stands for: its special D and M show it",
-               range{1, 3});
+    v.optional("channel", c.channel,
+               "Channel of the PLC that a server line stands for: its special D and M show it. Of an FP7 the number of "
+               "the COM port",
+               range{0, 3});
 }
 
 template <class Visitor>
@@ -143,7 +145,8 @@ void describe(Visitor& v, route_config& c)
     v.required("first", c.first, "Protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
     v.optional("count", c.count, "Registers or bits", range{1, 2000});
     v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
-    v.required("device", c.device, "First device in its memory, for example D100, M0, X17 (octal)", text{2, 16});
+    v.required("device", c.device,
+               "First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, WR3 in an FP7", text{2, 16});
     v.optional("direction", c.way, "read: station to PLC, periodically; write: PLC to station, on change", directions);
     v.optional("period_ms", c.period, "Milliseconds from one read to the next", range{10, 86'400'000});
 }

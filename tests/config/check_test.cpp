@@ -189,7 +189,7 @@ TEST_CASE("check: lines and PLC models")
         {R"("model": "FX3U")", R"("model": "FX3UC")", ""},
         {R"("model": "FX3U")", R"("model": "fx3u")", ""},
         {R"("model": "FX3U")", R"("model": "FX5U")",
-         R"(5 /plcs/0/model is "FX5U", expected one of: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22, LS32)"},
+         R"(5 /plcs/0/model is "FX5U", expected one of: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22, LS32, FP7)"},
     };
     for (const change_row& row : rows)
         check_row(row);

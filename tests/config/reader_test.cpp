@@ -188,7 +188,8 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
           "4 /routes/0 has no \"table\": Table of the station's registers or bits\n"
           "4 /routes/0 has no \"first\": Protocol address of the first one, zero-based: 40001 is 0\n"
           "4 /routes/0 has no \"plc\": Name of the simulated PLC\n"
-          "4 /routes/0 has no \"device\": First device in its memory, for example D100, M0, X17 (octal)");
+          "4 /routes/0 has no \"device\": First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, "
+          "WR3 in an FP7");
 }
 
 TEST_CASE("reader: all mistakes of a file at once, in the order of its lines")

@@ -65,10 +65,10 @@ TEST_CASE("check: other mistakes of a row that is not read as a whole are still 
         {R"("count": 8,
       "plc": "main",
       "device": "X10")",
-         R"("count": "8", "plc": "mine", "device": "X8")",
+         R"("count": "8", "plc": "mine", "device": "X1.8")",
          "56 /routes/2/count is \"8\", expected a whole number from 1 to 2000\n"
          "56 /routes/2/plc names the PLC \"mine\", which does not exist: did you mean \"main\"?\n"
-         "56 /routes/2/device is \"X8\", expected a device such as D100, M0 or X17 (octal)"},
+         "56 /routes/2/device is \"X1.8\", expected a device such as D100, M0 or X17 (octal)"},
         {R"("count": 8,
       "plc": "main",
       "device": "X10")",

@@ -81,6 +81,33 @@ class CommandsTest(InteropTest):
         self.assertEqual(answer("D0", model="FX9")[0], 1)
         self.assertEqual(answer("D0", "M0", model="FX3G")[0], 0)
 
+    def test_map_of_fp7(self):
+        def answer(*queries):
+            status, out, err = self.command("map", "--model", "FP7", *queries)
+            return status, [" ".join(line.split()) for line in out.splitlines()], err
+
+        self.assertEqual(answer(), (0, ["FP7, default map",
+                                        "coil 0-2047 0000-07FF Y0-Y127F",
+                                        "coil 2048-34815 0800-87FF R0-R2047F",
+                                        "discrete input 0-8191 0000-1FFF X0-X511F",
+                                        "input register 0-1023 0000-03FF WL0-WL1023",
+                                        "input register 1024-1999 0400-07CF -",
+                                        "input register 2000-18383 07D0-47CF LD0-LD16383",
+                                        "holding register 0-65535 0000-FFFF DT0-DT65535",
+                                        "What leads nowhere (-) is answered with exception 02."], ""))
+        self.assertEqual(answer("r1f", "WR3", "L5", "302001"),
+                         (0, ["R1F coil coil:2079 (0x081F) 02080 / 002080",
+                              "WR3 coil coil:2096 (0x0830) 02097 / 002097 and the next 15, bit 0 first",
+                              "L5 input register ir:0 (0x0000) 30001 / 300001 bit 5",
+                              "input register ir:2000 (0x07D0) 32001 / 302001 LD0"], ""))
+        for wrong, why in (("R1G", "one hexadecimal digit for the bit: R1F"), ("D100", "such as DT100, R1F or WR3"),
+                           ("DT65536", "but DT0-DT65535"), ("WX512", "but WX0-WX511"),
+                           ("Y1280", "no MODBUS number leads to it"), ("ir:1024", "exception 02")):
+            with self.subTest(wrong=wrong):
+                status, out, err = answer(wrong)
+                self.assertEqual((status, out), (1, []))
+                self.assertIn(why, err)
+
     def test_map_of_a_configuration(self):
         path = self.write(self.configuration(units=["main", "other"]))
         status, out, _ = self.command("map", "-c", path, "-p", "other", "40001")
@@ -102,7 +129,13 @@ class CommandsTest(InteropTest):
                          {"T4": 1.8, "T7": 5.2, "T9": 4.6, "Tm": 41.0, "Ts": 22.6})
         self.assertGreater(times("--baud", 9600)["Tm"], found["Tm"])
         self.assertEqual(times("--request", 8, "--response", 7), found)
-        for wrong in (("--function", "3", "--count", "126"), ("--bits", "9N1"), ("--bits", "7E1"), ("--scan", "0")):
+        # The FP7 manual's sixth and third example: 10.584 ms, and 593.43 ms of parts that it rounds first.
+        small = times("--plc-link", 2, "--relay-words", 1, "--register-words", 1, "--scan", 1)
+        self.assertEqual(small, {"Tpc": 3.0, "Ts": 4.0, "Tlt": 1.6, "Tso": 1.0, "Tlk": 0.0, "T": 10.6})
+        self.assertEqual(times("--plc-link", 16, "--absent", 1, "--scan", 5)["T"], 593.0)
+        for wrong in (("--function", "3", "--count", "126"), ("--bits", "9N1"), ("--bits", "7E1"), ("--scan", "0"),
+                      ("--plc-link", "17"), ("--plc-link", "1"), ("--plc-link", "2", "--absent", "2"),
+                      ("--plc-link", "2", "--relay-words", "65"), ("--plc-link", "2", "--scan", "0")):
             with self.subTest(wrong=wrong):
                 status, out, err = self.command("linktime", *wrong)
                 self.assertEqual((status, out), (1, ""))

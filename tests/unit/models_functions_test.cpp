@@ -48,6 +48,7 @@ const manual_model manual_models[] = {
     {"FX3UC", fx3u_all, fx3u_tcp,  2,        true,  true},
     {"LS22",  ls_all,   ls_tcp,    3,        true,  false},
     {"LS32",  ls_all,   ls_tcp,    3,        true,  false},
+    {"FP7",   basic,    basic,     3,        false, false},
 };
 
 struct register_row {
@@ -124,7 +125,7 @@ TEST_CASE("models: functions, channels and frame modes are the manuals'")
         CHECK(m->channels.size() == row.channels);
         CHECK(m->ascii == row.ascii);
         CHECK(m->user_defined_map == row.user_defined_map);
-        CHECK(m->one_channel == !is_ls(*m));
+        CHECK(m->one_channel == (m->programs && !is_ls(*m)));
         CHECK((m->errors == error_style::ls) == is_ls(*m));
         CHECK((m->format == format_style::ls) == is_ls(*m));
         CHECK((m->timers == timer_names::plain) == is_ls(*m));
@@ -147,7 +148,7 @@ TEST_CASE("models: the transport decides what is answered")
 TEST_CASE("models: special registers and flags of every channel")
 {
     for (const model* m : all_models())
-        for (std::size_t i = 0; i < m->channels.size(); ++i) {
+        for (std::size_t i = 0; m->programs && i < m->channels.size(); ++i) {
             CAPTURE(std::string(m->name));
             CAPTURE(i);
             const channel& of = m->channels[i];

@@ -12,6 +12,8 @@ using modbus::table;
 
 namespace {
 
+const model& fx3u = *find_model("FX3U");
+
 device dev(const char* text) { return parse_device(text).value(); }
 
 std::vector<device_address> where(const char* model_name, const char* text)
@@ -143,7 +145,7 @@ TEST_CASE("map query: numbers and references")
     };
     for (const auto& [text, expected] : rows) {
         CAPTURE(text);
-        const auto query = parse_map_query(text);
+        const auto query = parse_map_query(text, fx3u);
         REQUIRE(query.has_value());
         CHECK(std::get<map_address>(*query) == expected);
     }
@@ -152,11 +154,11 @@ TEST_CASE("map query: numbers and references")
 TEST_CASE("map query: devices, X and Y in octal, T and C as contact and value")
 {
     using devices = std::vector<device>;
-    CHECK(std::get<devices>(*parse_map_query("D8015")) == devices{dev("D8015")});
-    CHECK(std::get<devices>(*parse_map_query("x17")) == devices{{device_kind::x, 15}});
-    CHECK(std::get<devices>(*parse_map_query("T5")) == devices{dev("TS5"), dev("TN5")});
-    CHECK(std::get<devices>(*parse_map_query("c200")) == devices{dev("CS200"), dev("CN200")});
-    CHECK(std::get<devices>(*parse_map_query("TN5")) == devices{dev("TN5")});
+    CHECK(std::get<devices>(*parse_map_query("D8015", fx3u)) == devices{dev("D8015")});
+    CHECK(std::get<devices>(*parse_map_query("x17", fx3u)) == devices{{device_kind::x, 15}});
+    CHECK(std::get<devices>(*parse_map_query("T5", fx3u)) == devices{dev("TS5"), dev("TN5")});
+    CHECK(std::get<devices>(*parse_map_query("c200", fx3u)) == devices{dev("CS200"), dev("CN200")});
+    CHECK(std::get<devices>(*parse_map_query("TN5", fx3u)) == devices{dev("TN5")});
 }
 
 TEST_CASE("map query: a wrong one says what would be right")
@@ -188,7 +190,7 @@ TEST_CASE("map query: a wrong one says what would be right")
     };
     for (const auto& [text, part] : rows) {
         CAPTURE(text);
-        const auto query = parse_map_query(text);
+        const auto query = parse_map_query(text, fx3u);
         REQUIRE(query.has_error());
         CHECK(query.error().find(part) != std::string::npos);
     }

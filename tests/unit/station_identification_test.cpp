@@ -51,7 +51,7 @@ TEST_CASE("device identification: basic, regular, extended and single objects")
     CHECK(ask({0x2B, 0x0E, 0x04, 0x80}) == buffer{0xAB, 0x02});
 }
 
-TEST_CASE("device identification: refusals, and every model has it")
+TEST_CASE("device identification: refusals, and every model but FP7 has it")
 {
     CHECK(ask({0x2B, 0x0E, 0x00, 0x00}) == buffer{0xAB, 0x03});
     CHECK(ask({0x2B, 0x0E, 0x05, 0x00}) == buffer{0xAB, 0x03});
@@ -59,8 +59,11 @@ TEST_CASE("device identification: refusals, and every model has it")
     CHECK(ask({0x2B, 0x0D, 0x01, 0x00}) == buffer{0xAB, 0x01});
     CHECK(ask({0x2B}) == buffer{0xAB, 0x01});
     for (const plc::model* m : plc::all_models())
-        CHECK(ask({0x2B, 0x0E, 0x04, 0x01}, "x", *m) ==
-              text({0x2B, 0x0E, 0x04, 0x82, 0x00, 0x00, 0x01}, {{1, std::string(m->name)}}));
+        if (m->name == "FP7")  // its manual's table of functions is complete
+            CHECK(ask({0x2B, 0x0E, 0x04, 0x01}, "x", *m) == buffer{0xAB, 0x01});
+        else
+            CHECK(ask({0x2B, 0x0E, 0x04, 0x01}, "x", *m) ==
+                  text({0x2B, 0x0E, 0x04, 0x82, 0x00, 0x00, 0x01}, {{1, std::string(m->name)}}));
     plc::simulated_plc plc("press", plc::fx3u, {});
     CHECK(serve_pdu(plc, buffer{0x2B, 0x0E, 0x01, 0x00}) == buffer{0xAB, 0x01});  // nobody said the revision
     CHECK(serve_pdu(plc, buffer{0x08, 0x00, 0x00, 0x12, 0x34}, "1.2.3") == buffer{0x88, 0x01});  // not over TCP

@@ -30,7 +30,12 @@ public:
     std::optional<plc::place> place_of(const std::string& row, const std::string& plc, const std::string& device,
                                        std::size_t bits);
 
+    // Complains when a place that place_of() found is not for others to fill: a PLC shows its communication there.
+    void check_filled(const std::string& row, const std::string& plc, plc::place at, std::size_t bits);
+
 private:
+    const plc::memory& memory_of(const plc::model& model);
+
     check_context& c_;
     std::map<const plc::model*, plc::memory> memories_;  // large: one for each model
 };

@@ -44,6 +44,12 @@ const station_config* check_context::station(const std::string& name, const std:
     return find("stations", stations, "station", name, at);
 }
 
+const plc::model* check_context::model_of(const std::string& plc) const
+{
+    const plc_config* const owner = plcs.find(plc);
+    return owner == nullptr ? nullptr : plc::find_model(owner->model);
+}
+
 template <class Row>
 const Row* check_context::find(const char* list, const name_index<Row>& rows, const char* what, const std::string& name,
                                const std::string& at)

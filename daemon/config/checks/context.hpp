@@ -1,6 +1,7 @@
 // What the checks of a configuration share: names that lead to rows, and the place for complaints.
 #pragma once
 
+#include "bridge/plc/model.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/config/located_json.hpp"
 
@@ -61,6 +62,9 @@ public:
     const plc_config* plc(const std::string& name, const std::string& at);
     const line_config* line(const std::string& name, const std::string& at);
     const station_config* station(const std::string& name, const std::string& at);
+
+    // Null when the PLC or its model does not exist, of which somebody else complains.
+    const plc::model* model_of(const std::string& plc) const;
 
 private:
     template <class Row>

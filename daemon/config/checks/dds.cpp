@@ -6,7 +6,10 @@ namespace plcgw::config {
 namespace {
 
 // As daemon/gateway.cpp calls it in DDS: "main.D0".
-std::string block_name(const block_config& b) { return b.plc + "." + plc::to_string(*plc::parse_device(b.device)); }
+std::string block_name(const std::string& plc, const plc::model& model, plc::device head)
+{
+    return plc + "." + plc::to_string(head, model.names);
+}
 
 // Cyclone runs on IPv4 here; it would look up a name while the gateway waits.
 void check_peers(check_context& c)
@@ -27,12 +30,13 @@ void check_blocks(check_context& c)
     for (std::size_t i = 0; i < c.config.dds.blocks.size(); ++i) {
         const block_config& b = c.config.dds.blocks[i];
         const std::string row = "/dds/blocks/" + std::to_string(i);
-        const auto device = plc::parse_device(b.device);
+        const plc::model* const model = c.model_of(b.plc);
+        const auto device = model == nullptr ? std::nullopt : plc::parse_device(b.device, model->names);
         const bool bits = device && plc::is_bit_kind(device->kind);
         const std::size_t size = bits ? b.count : std::size_t{16} * b.count;
         if (!devices.place_of(row, b.plc, b.device, c.is_sound(row) ? size : 1))
             continue;
-        const std::string name = block_name(b);
+        const std::string name = block_name(b.plc, *model, *device);
         if (name.size() > name_rule.most)
             c.complain(row + "/plc", "makes \"" + name + "\", which is longer than the " +
                                          std::to_string(name_rule.most) +

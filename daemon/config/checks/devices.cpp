@@ -1,32 +1,29 @@
 #include "daemon/config/checks/checks.hpp"
+#include "daemon/config/checks/found_devices.hpp"
 
 namespace plcgw::config {
+
+const plc::memory& device_check::memory_of(const plc::model& model)
+{
+    return memories_.try_emplace(&model, model).first->second;
+}
 
 std::optional<plc::place> device_check::place_of(const std::string& row, const std::string& plc,
                                                  const std::string& device, std::size_t bits)
 {
-    const plc_config* const owner = c_.plc(plc, row + "/plc");
-    const plc::model* const model = owner == nullptr ? nullptr : plc::find_model(owner->model);
-    const auto parsed = plc::parse_device(device);
-    if (!parsed && !device.empty())
-        c_.complain(row + "/device", "is \"" + device + "\", expected a device such as D100, M0 or X17 (octal)");
-    if (!parsed || model == nullptr)
-        return std::nullopt;
-    const plc::memory& memory = memories_.try_emplace(model, *model).first->second;
-    const auto at = memory.find(*parsed);
-    if (!at || !plc::exists(*model, *parsed)) {
-        c_.complain(row + "/device",
-                    "is " + plc::to_string(*parsed) + ", which a " + std::string(model->name) + " does not have");
-        return std::nullopt;
-    }
-    if (memory.bits_from(*at) < bits) {
-        const plc::area& area = model->areas[at->area];
-        const plc::device last{area.kind, area.first + area.count - 1};
-        c_.complain(row + "/device", "is " + plc::to_string(*parsed) + ", but from there the count goes beyond " +
-                                         plc::to_string(last) + ", the last one");
-        return std::nullopt;
-    }
-    return at;
+    c_.plc(plc, row + "/plc");
+    const plc::model* const model = c_.model_of(plc);
+    found_devices found = model == nullptr ? find_devices(device) : find_devices(memory_of(*model), device, bits);
+    if (!found.mistake.empty())
+        c_.complain(row + "/device", std::move(found.mistake));
+    return found.at;
+}
+
+void device_check::check_filled(const std::string& row, const std::string& plc, plc::place at, std::size_t bits)
+{
+    std::string why = status_mistake(memory_of(*c_.model_of(plc)), at, bits);
+    if (!why.empty())
+        c_.complain(row + "/device", std::move(why));
 }
 
 }  // namespace plcgw::config

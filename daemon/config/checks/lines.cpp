@@ -14,8 +14,7 @@ using port_users = std::map<std::string, std::vector<std::string>>;  // of each 
 
 void check_unit_plc(check_context& c, const std::string& at, const unit_config& unit, line_protocol protocol)
 {
-    const plc_config* const owner = c.plcs.find(unit.plc);
-    const plc::model* const model = owner == nullptr ? nullptr : plc::find_model(owner->model);
+    const plc::model* const model = c.model_of(unit.plc);
     if (model == nullptr)
         return;
     const bool exists = std::any_of(model->channels.begin(), model->channels.end(),

@@ -80,7 +80,11 @@ void check_plc(check_context& c, std::size_t i, const plc_config& p)
         c.complain(item("plcs", i, "program_file"), "names \"" + p.program_file + "\", which cannot be read");
         return;
     }
-    if (c.is_sound(item("plcs", i, "program")))
+    if (!model->programs && !(p.program.empty() && p.program_file.empty()))
+        c.complain(item("plcs", i, p.program.empty() ? "program_file" : "program"),
+                   "does not belong to a " + std::string(model->name) +
+                       ", which has neither D8400-D8485 nor ADPRW: remove it, the lines say how it communicates");
+    else if (c.is_sound(item("plcs", i, "program")))
         check_program(c, i, p, *model, *program);
     check_channels(c, i, p, *model);
 }

@@ -64,10 +64,12 @@ void check_route(check_context& c, device_check& devices, occupied_devices& occu
     check_request(c, i, r);
     const std::size_t bits = modbus::is_bit_table(r.table) ? r.count : std::size_t{16} * r.count;
     const auto at = devices.place_of(item("routes", i), r.plc, r.device, bits);
-    if (at && r.way == direction::read)
-        for (const std::size_t other : occupied.take(r.plc, *at, bits, i))
-            c.complain(item("routes", i, "device"), "overlaps with the devices of route \"" +
-                                                        c.config.routes[other].name + "\": each device has one source");
+    if (!at || r.way != direction::read)
+        return;
+    devices.check_filled(item("routes", i), r.plc, *at, bits);
+    for (const std::size_t other : occupied.take(r.plc, *at, bits, i))
+        c.complain(item("routes", i, "device"), "overlaps with the devices of route \"" + c.config.routes[other].name +
+                                                    "\": each device has one source");
 }
 
 }  // namespace
