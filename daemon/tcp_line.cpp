@@ -86,7 +86,7 @@ void tcp_line::ask(key who, buffer& out)
     under_way& each = questions_.at(who);
     ++each.attempts;
     const time_point deadline = now() + each.question.timing.response_timeout;
-    const buffer adu = open_.ask(who, each.question.unit, each.question.request, deadline);
+    const buffer adu = open_.ask(who, unit_of(each.question.unit), each.question.request(), deadline);
     out.insert(out.end(), adu.begin(), adu.end());
 }
 

@@ -9,20 +9,6 @@ constexpr int periods_until_stale = 3;
 constexpr duration least_longest_delay = std::chrono::seconds(5);
 constexpr duration refused_write_pause = std::chrono::seconds(1);
 
-// Exceptions that say "not now" rather than "never".
-bool may_pass(modbus::exception_code code)
-{
-    return code == modbus::exception_code::acknowledge || code == modbus::exception_code::server_device_busy;
-}
-
-std::string exception_text(modbus::exception_code code)
-{
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    const auto value = static_cast<unsigned>(code);
-    return std::string("exception ") + digits[value / 16 % 16] + digits[value % 16] + " (" +
-           std::string(modbus::to_string(code)) + ")";
-}
-
 }  // namespace
 
 client_line::client_line(std::string name, std::vector<station> stations, duration longest_silence,
@@ -49,7 +35,7 @@ void client_line::add_route(route r, std::size_t station, duration period)
     added.period = period;
 }
 
-std::optional<forward_ticket> client_line::forward(modbus::unit_id unit, modbus::request request,
+std::optional<forward_ticket> client_line::forward(station_number unit, modbus::request request,
                                                    std::optional<modbus::serial_options> timing)
 {
     const auto ticket = forwards_.add(unit, std::move(request), std::move(timing));
@@ -89,7 +75,7 @@ std::optional<client_line::question> client_line::next_forward(time_point now)
     return std::nullopt;
 }
 
-std::uint8_t client_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_stranger) const
+std::uint8_t client_line::delimiter_of(station_number unit, std::uint8_t of_a_stranger) const
 {
     const auto told = delimiters_.find(unit);
     if (told == delimiters_.end())
@@ -97,21 +83,23 @@ std::uint8_t client_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_s
     return told->second.in_force ? told->second.character : modbus::ascii_delimiter;
 }
 
-void client_line::learn_delimiter(const question& q, const modbus::response& answer)
+void client_line::learn_delimiter(const question& q, const station_answer& answer)
 {
-    const auto* const asked = std::get_if<modbus::diagnostics>(&q.request);
+    const auto* const response = std::get_if<modbus::response>(&answer);
+    const auto* const request = std::get_if<modbus::request>(&q.asked);
+    const auto* const asked = request == nullptr ? nullptr : std::get_if<modbus::diagnostics>(request);
     if (asked != nullptr && asked->what == modbus::diagnostic::change_ascii_delimiter && !asked->data.empty() &&
-        std::holds_alternative<modbus::diagnostics_answered>(answer))
+        response != nullptr && std::holds_alternative<modbus::diagnostics_answered>(*response))
         delimiters_[q.unit] = {asked->data[0]};
 }
 
-void client_line::doubt_delimiter(modbus::unit_id unit)
+void client_line::doubt_delimiter(station_number unit)
 {
     if (const auto told = delimiters_.find(unit); told != delimiters_.end())
         told->second.in_force = !told->second.in_force;
 }
 
-const station* client_line::find(modbus::unit_id unit) const
+const station* client_line::find(station_number unit) const
 {
     const auto found =
         std::find_if(stations_.begin(), stations_.end(), [unit](const station& each) { return each.unit == unit; });
@@ -139,12 +127,12 @@ bool client_line::attempt_failed(const question& q, const modbus::answer_fault& 
     return forwarded != nullptr;
 }
 
-void client_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
+void client_line::answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
                            unanswered_requests late)
 {
     learn_delimiter(q, answer);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
-        forwards_.answer(*forwarded, answer);
+        forwards_.answer(*forwarded, std::get<modbus::response>(answer));
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
@@ -155,14 +143,14 @@ void client_line::answered(const question& q, const modbus::response& answer, ti
         note(line_event::severity::info, label(stations_[of.station]) + " answers again");
 
     of.answered = true;
-    if (const auto* refused = std::get_if<modbus::exception_code>(&answer)) {
-        set_quality(of, quality::device_error, exception_text(*refused));
-        if (of.content.way == direction::write && may_pass(*refused))
+    if (const auto refused = refusal_in(answer)) {
+        set_quality(of, quality::device_error, refused->reason);
+        if (of.content.way == direction::write && refused->may_pass)
             schedule_.ask(turn.item, now + refused_write_pause);
         return;
     }
     const std::vector<std::uint16_t> words_before = of.content.words;
-    store(of.content, q.request, answer);
+    store(of.content, q.asked, answer);
     of.content.source = wall;
     of.good_at = now;
     of.changed = of.changed || of.content.words != words_before;
@@ -182,9 +170,10 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
     const bool asked = why != errc::line_not_quiet;
     schedule_.finished(turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
                        late);
-    set_quality(of, quality::comm_error, why.message());
+    const std::string reason = reason_of(q.asked, why);
+    set_quality(of, quality::comm_error, reason);
     if (before != health::down && schedule_.state_of(of.station) == health::down)
-        station_down(of.station, why.message());
+        station_down(of.station, reason);
 }
 
 void client_line::interrupted(const question& q)
@@ -295,7 +284,7 @@ void client_line::station_down(std::size_t index, const std::string& reason)
 
 std::string client_line::label(const station& of) const
 {
-    return "line " + name_ + ", station " + of.name + " (unit " + std::to_string(modbus::number(of.unit)) + ")";
+    return "line " + name_ + ", station " + of.name + " (unit " + std::to_string(number(of.unit)) + ")";
 }
 
 }  // namespace plcgw

@@ -3,6 +3,7 @@
 
 #include "bridge/dds/settings.hpp"
 #include "bridge/routes/route.hpp"
+#include "daemon/config/mewtocol_config.hpp"
 #include "protocols/serial_timing.hpp"
 
 #include <chrono>
@@ -48,7 +49,13 @@ struct unit_config {
     unsigned channel = 1;    // of the PLC, on a serial line: whose special devices show the communication
 };
 
-enum class line_protocol : std::uint8_t { modbus_rtu, modbus_ascii, modbus_tcp };
+enum class line_protocol : std::uint8_t { modbus_rtu, modbus_ascii, modbus_tcp, mewtocol_com, mewtocol7_com };
+
+constexpr bool is_mewtocol(line_protocol p)
+{
+    return p == line_protocol::mewtocol_com || p == line_protocol::mewtocol7_com;
+}
+
 enum class line_role : std::uint8_t { client, server };
 
 struct line_config {
@@ -72,6 +79,7 @@ struct line_config {
     milliseconds silence{20};
     local_echo echo = local_echo::automatic;
     unsigned max_outstanding = 1;  // of MODBUS TCP
+    mewtocol_config mewtocol;
 };
 
 struct station_config {
@@ -85,8 +93,9 @@ struct station_config {
 struct route_config {
     std::string name;
     std::string station;
-    modbus::table table = modbus::table::holding_registers;
-    unsigned first = 0;
+    std::optional<modbus::table> table;  // of a MODBUS station
+    std::optional<unsigned> first;
+    std::string source;  // of a MEWTOCOL station instead: "DT100", "R1F"
     unsigned count = 1;
     std::string plc;
     std::string device;

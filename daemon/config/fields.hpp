@@ -3,35 +3,17 @@
 #pragma once
 
 #include "daemon/config/config.hpp"
+#include "daemon/config/mewtocol_fields.hpp"
 
-#include <cstdint>
-#include <string_view>
 #include <utility>
 
 namespace plcgw::config {
 
-struct range {
-    std::int64_t least;
-    std::int64_t most;
-};
-
-// A name is a DDS key and stands in logs: 1 to `most` bytes. Any other text may be empty.
-struct text {
-    std::size_t least = 0;
-    std::size_t most = 255;
-};
-
-inline constexpr text name_rule{1, 64};
-
-template <class Enum>
-struct choice {
-    std::string_view name;
-    Enum value;
-};
-
 inline constexpr choice<line_protocol> line_protocols[] = {{"modbus-rtu", line_protocol::modbus_rtu},
                                                            {"modbus-ascii", line_protocol::modbus_ascii},
-                                                           {"modbus-tcp", line_protocol::modbus_tcp}};
+                                                           {"modbus-tcp", line_protocol::modbus_tcp},
+                                                           {"mewtocol-com", line_protocol::mewtocol_com},
+                                                           {"mewtocol7-com", line_protocol::mewtocol7_com}};
 inline constexpr choice<line_role> line_roles[] = {{"client", line_role::client}, {"server", line_role::server}};
 inline constexpr choice<server_framing> server_framings[] = {
     {"tcp", server_framing::tcp}, {"rtu", server_framing::rtu}, {"ascii", server_framing::ascii}};
@@ -81,10 +63,10 @@ void describe(Visitor& v, rs485_config& c)
 template <class Visitor>
 void describe(Visitor& v, unit_config& c)
 {
-    v.required("unit", c.unit, "MODBUS unit id", range{0, 255});
+    v.required("unit", c.unit, "MODBUS unit id, 0 to 255, or MEWTOCOL station", range{0, 999});
     v.optional("plc", c.plc, "Name of the simulated PLC that answers", text{0, 64});
     v.optional("line", c.line, "Or name of the line to which requests are forwarded", text{0, 64});
-    v.optional("line_unit", c.line_unit, "Unit id on that line; 0 = the same", range{0, 255});
+    v.optional("line_unit", c.line_unit, "Unit id or MEWTOCOL station on that line; 0 = the same", range{0, 999});
     v.optional("channel", c.channel,
                "Channel of the PLC that a server line stands for: its special D and M show it. Of an FP7 the number of "
                "the COM port",
@@ -96,16 +78,18 @@ void describe(Visitor& v, line_config& c)
 {
     v.required("name", c.name, "Name of the line", name_rule);
     v.optional("device", c.device, "Serial port, best a stable name such as /dev/serial/by-id/...", text{});
-    v.optional("host", c.host,
-               "Host instead of a serial port: a MODBUS TCP server, or a device server that passes on RTU or ASCII",
-               text{});
+    v.optional(
+        "host", c.host,
+        "Host instead of a serial port: a MODBUS TCP server, or a device server that passes on what is on its line",
+        text{});
     v.optional("port", c.port, "TCP port of the host", range{1, 65'535});
     v.optional("protocol", c.protocol,
-               "What is spoken on the line; with a host, modbus-rtu and modbus-ascii mean RTU or ASCII over TCP",
+               "What is spoken on the line; with a host, all but modbus-tcp mean that a device server passes it on",
                line_protocols);
     v.optional("role", c.role, "client: the gateway asks the stations; server: it answers, for the units below",
                line_roles);
-    v.optional("units", c.units, "Of a server line: which unit id leads to which PLC");
+    v.optional("units", c.units, "Of a server line: which unit id or MEWTOCOL station leads to which PLC");
+    v.optional("mewtocol", c.mewtocol, "Of a MEWTOCOL line");
     v.optional("baud_rate", c.baud_rate, "Bits per second", range{300, 4'000'000});
     v.optional("data_bits", c.data_bits, "Data bits; RTU needs 8, ASCII takes 7 or 8", range{7, 8});
     v.optional("parity", c.check, "Parity bit", parities);
@@ -118,8 +102,10 @@ void describe(Visitor& v, line_config& c)
     v.optional("retries", c.retries, "Repetitions of a request that got no good answer", range{0, 20});
     v.optional("turnaround_delay_ms", c.turnaround_delay, "Milliseconds of silence after a broadcast",
                range{0, 32'767});
-    v.optional("gap_us", c.gap, "Microseconds of silence before a request; 0 = 3.5 characters, never less",
-               range{0, 16'382'000});
+    v.optional(
+        "gap_us", c.gap,
+        "Microseconds of silence before a request; 0 = 3.5 characters, never less. MEWTOCOL server: before a response",
+        range{0, 16'382'000});
     v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged frame", range{1, 1000});
     v.optional("local_echo", c.echo, "Whether the adapter returns what it sends; auto finds out at the first read",
                local_echoes);
@@ -131,7 +117,10 @@ void describe(Visitor& v, station_config& c)
 {
     v.required("name", c.name, "Name of the device", name_rule);
     v.required("line", c.line, "Name of its line", name_rule);
-    v.required("unit", c.unit, "MODBUS unit id; 0 = broadcast, for write routes only", range{0, 247});
+    v.required(
+        "unit", c.unit,
+        "MODBUS unit id to 247, MEWTOCOL station to 99, MEWTOCOL7 to 999; 0 = all of them, for write routes only",
+        range{0, 999});
     v.optional("response_timeout_ms", c.response_timeout, "As at the line, for this station", range{1, 60'000});
     v.optional("retries", c.retries, "As at the line, for this station", range{0, 20});
 }
@@ -141,9 +130,12 @@ void describe(Visitor& v, route_config& c)
 {
     v.required("name", c.name, "Name of the route: key of its DDS instance", name_rule);
     v.required("station", c.station, "Name of the station", name_rule);
-    v.required("table", c.table, "Table of the station's registers or bits", tables);
-    v.required("first", c.first, "Protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
-    v.optional("count", c.count, "Registers or bits", range{1, 2000});
+    v.optional("table", c.table, "MODBUS: table of the station's registers or bits", tables);
+    v.optional("first", c.first, "MODBUS: protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
+    v.optional("source", c.source,
+               "MEWTOCOL instead: first device of the station, such as DT100, WR3 or R1F; a write route writes there",
+               text{1, 16});
+    v.optional("count", c.count, "Registers, words or bits", range{1, 2000});
     v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
     v.required("device", c.device,
                "First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, WR3 in an FP7", text{2, 16});

@@ -54,7 +54,7 @@ public:
 private:
     void exchange(const client_line::question& q)
     {
-        serial_transaction t(q.unit, q.request, q.timing, free_from_, now_);
+        serial_transaction t(unit_of(q.unit), q.request(), q.timing, free_from_, now_);
         for (;;) {
             const auto action = t.next(now_);
             if (std::holds_alternative<serial_transaction::done>(action))
@@ -62,7 +62,7 @@ private:
             if (std::holds_alternative<serial_transaction::send>(action)) {
                 t.sent(now_);
                 free_ = (one_by_one_ ? std::max(now_, free_) : now_) + delay_;
-                on_their_way_.push_back({free_, answer_to(std::get<read_table>(q.request))});
+                on_their_way_.push_back({free_, answer_to(std::get<read_table>(q.request()))});
             }
             else if (const auto late = next_answer(std::get<serial_transaction::wait>(action).until)) {
                 t.feed(now_, *late);

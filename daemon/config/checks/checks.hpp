@@ -18,6 +18,9 @@ void check_dds(check_context& c);
 // Unit ids of a server and where they lead. list: "/modbus_tcp/0/units".
 void check_units(check_context& c, const std::string& list, const std::vector<unit_config>& units);
 
+// Where a route's values are in its station. line: of the station, if known.
+std::size_t check_station_place(check_context& c, std::size_t i, const route_config& r, const line_config* line);
+
 // A line on which somebody can be asked.
 void check_client_line(check_context& c, const std::string& name, const std::string& at);
 

@@ -30,6 +30,10 @@ void check_server(check_context& c, std::size_t i, const tcp_server_config& s)
     if (s.units.empty() && s.other_units.empty() && c.is_sound(item("modbus_tcp", i)))
         c.complain(item("modbus_tcp", i), "leads to no PLC: give \"units\" or \"other_units\"");
     check_units(c, item("modbus_tcp", i, "units"), s.units);
+    for (std::size_t u = 0; u < s.units.size(); ++u)
+        if (s.units[u].unit > 255)
+            c.complain(item("modbus_tcp", i, "units") + "/" + std::to_string(u) + "/unit",
+                       "is " + std::to_string(s.units[u].unit) + ", expected a whole number from 0 to 255");
 }
 
 }  // namespace

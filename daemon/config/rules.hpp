@@ -1,0 +1,28 @@
+// What a value of the configuration may be.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace plcgw::config {
+
+struct range {
+    std::int64_t least;
+    std::int64_t most;
+};
+
+// A name is a DDS key and stands in logs: 1 to `most` bytes. Any other text may be empty.
+struct text {
+    std::size_t least = 0;
+    std::size_t most = 255;
+};
+
+inline constexpr text name_rule{1, 64};
+
+template <class Enum>
+struct choice {
+    std::string_view name;
+    Enum value;
+};
+
+}  // namespace plcgw::config
