@@ -134,7 +134,7 @@ void describe(Visitor& v, route_config& c)
     v.optional("first", c.first, "MODBUS: protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
     v.optional("source", c.source,
                "MEWTOCOL instead: first device of the station, such as DT100, WR3 or R1F; a write route writes there",
-               text{1, 16});
+               text{0, 16});
     v.optional("count", c.count, "Registers, words or bits", range{1, 2000});
     v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
     v.required("device", c.device,

@@ -20,9 +20,8 @@ void check_number(check_context& c, std::size_t i, const station_config& s)
         return;
     const unsigned highest = highest_number(line->protocol);
     if (s.unit > highest)
-        c.complain(item("stations", i, "unit"), "is " + std::to_string(s.unit) +
-                                                    ", expected a whole number from 0 to " + std::to_string(highest) +
-                                                    " on this line");
+        c.complain(item("stations", i, "unit"),
+                   "is " + std::to_string(s.unit) + ", but numbers on this line end at " + std::to_string(highest));
     if (s.unit == 0 && line->protocol == line_protocol::mewtocol7_com)
         c.complain(item("stations", i, "unit"), "is 0, but MEWTOCOL7-COM cannot speak to all stations");
 }
