@@ -26,17 +26,6 @@ std::string_view cure_of(boost::system::error_code ec)
     return "`ss -ltnp` shows who uses the port";
 }
 
-// What a PLC shows of a line that the configuration sets up.
-plc::channel_line shown_line(const line_config& line, plc::role as, unsigned unit)
-{
-    plc::channel_line shown{.as = as, .station = static_cast<std::uint8_t>(unit), .rs485 = line.rs485.enabled};
-    if (line.protocol != line_protocol::modbus_tcp)
-        shown.format = format_of(line);
-    if (line.protocol == line_protocol::modbus_ascii)
-        shown.mode = plc::framing::ascii;
-    return shown;
-}
-
 void log_event(const line_event& event)
 {
     if (event.level == line_event::severity::warning)
@@ -48,8 +37,8 @@ void log_event(const line_event& event)
 }  // namespace
 
 gateway::gateway(asio::io_context& loop, const config::loaded& from)
-    : loop_(loop), config_(from.config), started_(wall_now()), dds_(loop, config_, from.hash), second_(loop),
-      watchdog_(loop)
+    : loop_(loop), config_(from.config), started_(wall_now()), fp7_ports_(loop, [this] { settle_memory(); }),
+      dds_(loop, config_, from.hash), second_(loop), watchdog_(loop)
 {
     make_plcs(from.folder);
     make_lines();
@@ -88,25 +77,13 @@ void gateway::make_lines()
     const auto plc = [this](const std::string& name) -> plc::simulated_plc& { return *find_plc(name); };
     for (const line_config& each : config_.lines) {
         if (each.role == line_role::server) {
-            make_serial_server(each);
+            server_lines_.push_back(make_server_line(loop_, each, plc, fp7_ports_, [this] { settle_memory(); }));
             continue;
         }
         const std::size_t index = lines_.size();
         lines_.push_back(
             std::make_unique<running_line>(loop_, config_, each, plc, [this, index] { settle(*lines_[index]); }));
     }
-}
-
-void gateway::make_serial_server(const line_config& line)
-{
-    std::vector<modbus_station> stations;
-    for (const unit_config& each : line.units) {
-        plc::simulated_plc& plc = *find_plc(each.plc);
-        stations.emplace_back(plc, modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, each.channel);
-        plc.attach(each.channel, shown_line(line, plc::role::server, each.unit));
-    }
-    serial_servers_.push_back(
-        std::make_unique<serial_server>(loop_, line, std::move(stations), [this] { settle_memory(); }));
 }
 
 void gateway::make_programs(const std::string& folder)
@@ -165,8 +142,8 @@ bool gateway::start()
     start_control();
     for (const auto& line : lines_)
         asio::co_spawn(loop_, line->driver->run(), asio::detached);
-    for (const auto& server : serial_servers_)
-        asio::co_spawn(loop_, server->run(), asio::detached);
+    for (const auto& line : server_lines_)
+        asio::co_spawn(loop_, line->run(), asio::detached);
     for (const auto& program : programs_)
         asio::co_spawn(loop_, program->run(), asio::detached);
     asio::co_spawn(loop_, every_second(), asio::detached);
@@ -225,6 +202,7 @@ void gateway::settle(running_line& line)
 
 void gateway::settle_memory()
 {
+    fp7_ports_.look();
     const bool changed_any =
         std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->memory().has_changes(); });
     for (const auto& plc : plcs_) {

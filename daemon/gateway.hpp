@@ -7,7 +7,7 @@
 #include "daemon/dds_link.hpp"
 #include "daemon/plc_program.hpp"
 #include "daemon/running_line.hpp"
-#include "daemon/serial_server.hpp"
+#include "daemon/server_line.hpp"
 #include "daemon/tcp_server.hpp"
 
 #include <memory>
@@ -32,7 +32,6 @@ private:
 
     void make_plcs(const std::string& folder);
     void make_lines();
-    void make_serial_server(const line_config& line);
     void make_programs(const std::string& folder);
     void make_servers();
     void make_blocks();
@@ -59,7 +58,8 @@ private:
     wall_time started_;
     std::vector<std::unique_ptr<plc::simulated_plc>> plcs_;
     std::vector<std::unique_ptr<running_line>> lines_;
-    std::vector<std::unique_ptr<serial_server>> serial_servers_;
+    fp7_ports fp7_ports_;
+    std::vector<std::unique_ptr<line_driver>> server_lines_;
     std::vector<std::unique_ptr<plc_program>> programs_;
     std::vector<std::unique_ptr<tcp_server>> servers_;
     std::vector<running_block> blocks_;

@@ -37,6 +37,12 @@ modbus::bus_framer serial_server::make_framer() const
     return {framing_of(config_), units_of(stations_), config_.silence};
 }
 
+void serial_server::reset()
+{
+    in_ = make_framer();
+    ++resets_;
+}
+
 asio::awaitable<void> serial_server::run()
 {
     for (;;) {
@@ -107,8 +113,11 @@ asio::awaitable<error_code> serial_server::take(bus_event event)
 asio::awaitable<error_code> serial_server::reply(modbus_station& station, buffer pdu)
 {
     const duration gap = std::max<duration>(config_.gap, frame_gap(format_of(config_)));
+    const unsigned resets = resets_;
     gap_.expires_at(in_.heard() + gap);
     co_await gap_.async_wait(no_throw);
+    if (resets != resets_)
+        co_return error_code{};
     const bool like_request = modbus::parse_request(pdu).has_value();
     const modbus::frame content{station.unit(), std::move(pdu)};
     const buffer adu = modbus::encode_adu(framing_of(config_), content, station.delimiter());

@@ -22,6 +22,9 @@ public:
     asio::awaitable<void> run() override;
     void wake() override {}
 
+    // The channel reset of an FP7's port: a request half heard and a reply not yet begun are given up.
+    void reset();
+
 private:
     modbus::bus_framer make_framer() const;
     asio::awaitable<boost::system::error_code> serve();  // until the port fails
@@ -34,6 +37,7 @@ private:
     std::unique_ptr<line_connection> connection_;
     echo_filter echo_;
     modbus::bus_framer in_;
+    unsigned resets_ = 0;
     asio::steady_timer gap_;
     std::array<std::uint8_t, 1024> received_{};
 };

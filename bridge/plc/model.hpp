@@ -67,6 +67,7 @@ struct model {
     device_names names = fx_device_names;
     std::string_view examples = "D100, M0 or X17 (octal)";  // of devices, for somebody who wrote none
     bool programs = true;                                   // takes a setup program and ADPRW instructions
+    bool mewtocol = false;                                  // answers MEWTOCOL-COM and MEWTOCOL7-COM
     std::span<const device_run> status = {};                // where it shows its communication: not for routes to write
 };
 

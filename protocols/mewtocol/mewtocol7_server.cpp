@@ -20,7 +20,7 @@ action server::hear(time_point now, const mewtocol::reception& r)
     if (!is_frame(r))
         return {};
     const auto f = parse_frame(r.characters);
-    if (!f || (f->station != options_.own && f->station != station_id::any))
+    if (!f || !answers(f->station))
         return {};
     if (f->checked == check::wrong)
         return refuse(*f, error_code::check);
@@ -42,9 +42,14 @@ action server::hear(time_point now, const mewtocol::reception& r)
     return std::move(*asked);
 }
 
+bool server::answers(station_id to) const
+{
+    return to == station_id::any ? options_.answers_any : to != station_id::none && to == options_.own;
+}
+
 action server::refuse(const frame& to, error_code why) const
 {
-    if (to.station != options_.own && to.station != station_id::any)
+    if (!answers(to.station))
         return {};
     return encode_frame(
         {.station = to.station, .number = to.number, .text = encode_response(command{}, why, options_.dialect)});

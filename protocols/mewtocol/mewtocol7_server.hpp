@@ -8,8 +8,9 @@
 namespace plcgw::mewtocol7 {
 
 struct server_options {
-    station_id own{};  // 1 to 999
-    mewtocol7::dialect dialect;
+    station_id own{};         // 1 to 999
+    bool answers_any = true;  // EEE: with several stations on a line only one may
+    mewtocol7::dialect dialect{};
     duration rest_kept{30'000'000};  // the rest of a response in several frames is forgotten after this
 };
 
@@ -25,6 +26,7 @@ public:
     const server_options& options() const { return options_; }
 
 private:
+    bool answers(station_id to) const;
     action refuse(const frame& to, error_code why) const;
     action hear_continuation(time_point now, const frame& f);
     buffer send_piece(time_point now, std::string text);

@@ -25,7 +25,7 @@ server::action server::hear(time_point now, const reception& r)
     const auto f = parse_frame(r.characters);
     if (!f || (f->head == header::expansion && !options_.expansion))
         return {};
-    if (f->station != options_.own && f->station != station_id::any && f->station != station_id::global)
+    if (!answers(f->station) && f->station != station_id::global)
         return {};
     if (f->checked == check::wrong) {
         begun_.clear();
@@ -34,9 +34,14 @@ server::action server::hear(time_point now, const reception& r)
     return f->text.starts_with('#') ? hear_command(now, *f) : hear_piece(now, *f);
 }
 
+bool server::answers(station_id to) const
+{
+    return to == station_id::any ? options_.answers_any : to != station_id::none && to == options_.own;
+}
+
 server::action server::refuse(const frame& to, error_code why) const
 {
-    if (to.station != options_.own && to.station != station_id::any)
+    if (!answers(to.station))
         return {};
     if (to.head == header::expansion && !options_.expansion)
         return {};

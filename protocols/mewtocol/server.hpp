@@ -12,7 +12,8 @@
 namespace plcgw::mewtocol {
 
 struct server_options {
-    station_id own{};  // 1 to 99
+    station_id own{};         // 1 to 99; none: it hears no frames but those to all
+    bool answers_any = true;  // EE: with several stations on a line only one may
     command_set offered = all_commands;
     bool expansion = true;           // knows the header `<`; without, such frames are not answered
     bool several_frames = true;      // `%` responses and commands in several frames; without, they are refused with !43
@@ -33,6 +34,7 @@ public:
     const server_options& options() const { return options_; }
 
 private:
+    bool answers(station_id to) const;
     action refuse(const frame& to, error_code why) const;
     action hear_command(time_point now, const frame& f);
     action hear_piece(time_point now, const frame& f);

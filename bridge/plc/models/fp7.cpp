@@ -94,6 +94,7 @@ constinit const model fp7{.name = "FP7",
                           .names = names,
                           .examples = "DT100, R1F or WR3",
                           .programs = false,
+                          .mewtocol = true,
                           .status = status};
 
 }  // namespace plcgw::plc

@@ -1,0 +1,47 @@
+// The communication units of the FP7s, and the lines that stand for their COM ports: status devices are kept up to
+// date, and a channel reset reaches the line. FP7 manual 4.1, 10.3, 10.4.
+#pragma once
+
+#include "bridge/services/fp7_unit.hpp"
+#include "daemon/config/config.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+
+#include <functional>
+
+namespace plcgw {
+
+namespace asio = boost::asio;
+
+class fp7_ports {
+public:
+    // settle: called when the time changed devices, to drain that. It calls look().
+    fp7_ports(asio::io_context& loop, std::function<void()> settle);
+
+    // The line stands for this port. reset: the line gives up what it does; it has done so when the call returns.
+    // Nothing happens for a PLC that is no FP7, and null is returned; else what the line tells its port.
+    fp7_unit* open(plc::simulated_plc& plc, unsigned com, const line_config& line, unsigned station,
+                   std::function<void()> reset);
+
+    // To be called after the memory changed and before the changes are drained.
+    void look();
+
+private:
+    struct unit_at_work {
+        fp7_unit unit;
+        std::map<unsigned, std::function<void()>> resets;  // by COM number
+    };
+
+    void wait();
+
+    std::function<void()> settle_;
+    std::map<plc::simulated_plc*, unit_at_work> units_;
+    asio::steady_timer timer_;
+    std::optional<time_point> waits_for_;
+};
+
+// As the line's settings show in PMGET.
+plc::com_parameters com_parameters_of(const line_config& line, unsigned station);
+
+}  // namespace plcgw
