@@ -171,4 +171,57 @@ class MewtocolClientTest(InteropTest):
         self.assertEqual(client.holding(0, 2), [0, 1])
 
 
+class OwnServerTest(InteropTest):
+    """Client line and server line of one gateway, joined by a bus: an FX3U and an FP7."""
+
+    def start(self, protocol, number):
+        self.start_bus(2)
+        port = {"protocol": protocol, "baud_rate": 115200, "parity": "none"}
+        configuration = self.configuration(
+            lines=[{**port, "name": "line", "device": str(self.folder / "line"), "response_timeout_ms": 1000},
+                   {**port, "name": "panel", "device": str(self.folder / "line.1"), "role": "server",
+                    "units": [{"unit": number, "plc": "fp7", "channel": 1}]}],
+            stations=[station("fp", number)],
+            routes=[source("fp.words", "DT100", "D100", 600, period_ms=300), source("fp.relays", "R1E", "M100", 4),
+                    source("fp.setpoint", "LD5", "D900", 2, direction="write"),
+                    source("fp.contacts", "R50", "M200", 16, direction="write")])
+        configuration["plcs"].append({"name": "fp7", "model": "FP7"})
+        configuration["modbus_tcp"][0]["units"] += [{"unit": 2, "plc": "fp7"},
+                                                    {"unit": 3, "line": "line", "line_unit": number}]
+        self.gateway = self.start_gateway(configuration)
+        self.watch = self.gateway.watch()
+
+    def check(self):
+        fp7, forwarded, fx3u = self.gateway.client(2), self.gateway.client(3), self.gateway.client(1)
+        fp7.write_registers(100, [7, 8])
+        fp7.write_register(699, 9)
+        fp7.write_coils(0x800 + 0x1E, [1, 0, 1, 1])
+        self.watch.expect("fp.words", quality="good", values=[7, 8] + [0] * 597 + [9])
+        self.watch.expect("fp.relays", quality="good", values=[1, 0, 1, 1])
+        fx3u.write_registers(900, [0x1234, 0xABCD])
+        fx3u.write_coils(200, [1, 0] * 8)
+        self.watch.expect("fp.setpoint", quality="good", values=[0x1234, 0xABCD])
+        self.watch.expect("fp.contacts", quality="good", values=[1, 0] * 8)
+        self.assertEqual(fp7.input(0x7D0 + 5, 2), [0x1234, 0xABCD])
+        self.assertEqual(fp7.coils(0x850, 16), [1, 0] * 8)
+        forwarded.write_registers(800, list(range(120)))
+        self.assertEqual(fp7.holding(800, 120), list(range(120)))
+        self.assertEqual(forwarded.holding(800, 120), list(range(120)))
+        self.assertEqual(forwarded.coils(0x81E, 4), [1, 0, 1, 1])
+        return forwarded, fp7
+
+    def test_mewtocol_com(self):
+        self.start("mewtocol-com", 99)
+        forwarded, fp7 = self.check()
+        forwarded.write_coil(0x860, 1)
+        self.assertEqual(fp7.coils(0x860), [1])
+
+    def test_mewtocol7_com(self):
+        self.start("mewtocol7-com", 500)
+        forwarded, _ = self.check()
+        with self.assertRaises(Refused) as raised:
+            forwarded.write_coil(0x860, 1)  # only whole words
+        self.assertEqual(raised.exception.code, 2)
+
+
 main()
