@@ -2,8 +2,7 @@
 
 namespace plcgw {
 
-asio::awaitable<std::optional<result<modbus::response>>> forward_gate::ask(modbus::unit_id unit,
-                                                                           modbus::request request,
+asio::awaitable<std::optional<result<modbus::response>>> forward_gate::ask(station_number unit, modbus::request request,
                                                                            std::optional<modbus::serial_options> timing,
                                                                            on_fault heard)
 {
@@ -14,7 +13,7 @@ asio::awaitable<std::optional<result<modbus::response>>> forward_gate::ask(modbu
     co_return std::move(answer);
 }
 
-forward_gate::handle forward_gate::begin(modbus::unit_id unit, modbus::request request,
+forward_gate::handle forward_gate::begin(station_number unit, modbus::request request,
                                          std::optional<modbus::serial_options> timing, on_fault heard)
 {
     const auto ticket = line_.forward(unit, std::move(request), std::move(timing));
@@ -67,8 +66,9 @@ modbus::response as_response(const std::optional<result<modbus::response>>& answ
         return modbus::exception_code::server_device_busy;
     if (*answer)
         return **answer;
-    return answer->error() == errc::port_absent ? modbus::exception_code::gateway_path_unavailable
-                                                : modbus::exception_code::gateway_target_failed_to_respond;
+    const bool no_path = answer->error() == errc::port_absent || answer->error() == errc::not_expressible;
+    return no_path ? modbus::exception_code::gateway_path_unavailable
+                   : modbus::exception_code::gateway_target_failed_to_respond;
 }
 
 }  // namespace plcgw

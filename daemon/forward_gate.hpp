@@ -1,7 +1,7 @@
 // Lets a coroutine ask a station of a line, and wait for its answer while the line does its other work.
 #pragma once
 
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 #include "daemon/line_driver.hpp"
 #include "daemon/read_before.hpp"
 
@@ -13,7 +13,7 @@ namespace plcgw {
 
 class forward_gate {
 public:
-    forward_gate(asio::any_io_executor executor, modbus_line& line, line_driver& driver)
+    forward_gate(asio::any_io_executor executor, client_line& line, line_driver& driver)
         : executor_(std::move(executor)), line_(line), driver_(driver)
     {
     }
@@ -32,10 +32,10 @@ public:
     // Nothing when too many requests wait already. timing: of the station or line, if absent. heard: called for each
     // attempt that failed, when it did.
     asio::awaitable<std::optional<result<modbus::response>>>
-    ask(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing, on_fault heard);
+    ask(station_number unit, modbus::request request, std::optional<modbus::serial_options> timing, on_fault heard);
 
     // The same in parts, for who may have to leave before the answer. Null when too many wait.
-    handle begin(modbus::unit_id unit, modbus::request request, std::optional<modbus::serial_options> timing = {},
+    handle begin(station_number unit, modbus::request request, std::optional<modbus::serial_options> timing = {},
                  on_fault heard = {});
     static asio::awaitable<result<modbus::response>> finish(handle asked);
     void cancel(const handle& asked);  // finish() ends with asio::error::operation_aborted
@@ -44,13 +44,13 @@ public:
 
 private:
     asio::any_io_executor executor_;
-    modbus_line& line_;
+    client_line& line_;
     line_driver& driver_;
     std::map<forward_ticket, handle> waiting_;
 };
 
-// What a gateway tells its client (V1.1b3 chapter 7): the answer, 06 when too many wait, 0A when the port is absent, 0B
-// when nobody answers.
+// What a gateway tells its client (V1.1b3 chapter 7): the answer, 06 when too many wait, 0A when the port is absent or
+// no such station can be on the line, 0B when nobody answers.
 modbus::response as_response(const std::optional<result<modbus::response>>& answer);
 
 }  // namespace plcgw

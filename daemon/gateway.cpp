@@ -119,7 +119,7 @@ unit_target gateway::target_of(const unit_config& unit)
     to.plc = find_plc(unit.plc);
     if (running_line* const line = find_line(unit.line))
         to.line = &line->gate;
-    to.unit = modbus::unit_id{static_cast<std::uint8_t>(unit.line_unit == 0 ? unit.unit : unit.line_unit)};
+    to.unit = station_number(unit.line_unit == 0 ? unit.unit : unit.line_unit);
     return to;
 }
 

@@ -3,6 +3,8 @@
 namespace plcgw {
 namespace {
 
+constexpr duration echo_delay = std::chrono::seconds(1);  // of an adapter or a network
+
 using boost::system::error_code;
 
 // No silence between the characters of a frame is defined: this ends one whose CR was lost.
@@ -44,7 +46,7 @@ asio::awaitable<error_code> mewtocol_server::serve()
         const auto size = co_await connection_->read(until, asio::buffer(received_));
         const time_point at = now();
         if (size)
-            in_.feed(at, echo_.feed(bytes(received_).first(*size)));
+            in_.feed(at, echo_.feed(at, bytes(received_).first(*size)));
         else if (size.error() != asio::error::timed_out)
             co_return size.error();
         for (;;) {
@@ -82,7 +84,8 @@ asio::awaitable<error_code> mewtocol_server::reply(buffer characters, time_point
         if (resets != resets_)
             co_return error_code{};
     }
-    echo_.sent(characters, is_like_request(characters));
+    const time_point echo_until = now() + character_time(format_of(config_), characters.size()) + echo_delay;
+    echo_.sent(characters, is_like_request(characters), echo_until);
     const error_code ec = co_await connection_->write(characters);
     co_return ec;
 }

@@ -1,6 +1,7 @@
 #include "daemon/running_line.hpp"
 
 #include "daemon/line_connection.hpp"
+#include "daemon/mewtocol_line.hpp"
 #include "daemon/serial_line.hpp"
 #include "daemon/tcp_line.hpp"
 
@@ -14,16 +15,17 @@ std::vector<station> stations_of(const gateway_config& all, const line_config& l
     std::vector<station> stations;
     for (const station_config& each : all.stations)
         if (each.line == line.name)
-            stations.push_back(
-                {each.name, modbus::unit_id{static_cast<std::uint8_t>(each.unit)}, timing_of(line, each)});
+            stations.push_back({each.name, station_number(each.unit), timing_of(line, each)});
     return stations;
 }
 
-std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const line_config& line, modbus_line& routes,
+std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const line_config& line, client_line& routes,
                                          std::function<void()> settle)
 {
     if (line.protocol == line_protocol::modbus_tcp)
         return std::make_unique<tcp_line>(loop, line, routes, std::move(settle));
+    if (is_mewtocol(line.protocol))
+        return std::make_unique<mewtocol_line>(loop, line, routes, std::move(settle));
     return std::make_unique<serial_line>(loop, line, routes, std::move(settle));
 }
 
@@ -33,8 +35,10 @@ route make_route(const route_config& from, const find_plc& plc)
     r.name = from.name;
     r.plc = &plc(from.plc);
     r.at = *r.plc->memory().find(*plc::parse_device(from.device, r.plc->model().names));
-    r.table = from.table;
-    r.first = modbus::address{static_cast<std::uint16_t>(from.first)};
+    if (from.source.empty())
+        r.there = modbus_place{*from.table, modbus::address{static_cast<std::uint16_t>(*from.first)}};
+    else
+        r.there = *mewtocol::parse_device(from.source);
     r.count = static_cast<std::uint16_t>(from.count);
     r.way = from.way;
     return r;

@@ -22,7 +22,7 @@ public:
                  std::function<void()> settle);
 
     const line_config config;
-    modbus_line routes;
+    client_line routes;
     const std::unique_ptr<line_driver> driver;
     forward_gate gate;
 };

@@ -1,37 +1,16 @@
-// Drives one serial line, RTU or ASCII, as MODBUS client: asks what the line's routes and others want.
+// A MODBUS line with one question at a time: RTU or ASCII, on a serial port or behind a device server.
 #pragma once
 
-#include "bridge/routes/modbus_line.hpp"
-#include "daemon/line_connection.hpp"
-#include "daemon/line_driver.hpp"
-
-#include <array>
-#include <functional>
+#include "daemon/polling_line.hpp"
 
 namespace plcgw {
 
-class serial_line final : public line_driver {
+class serial_line final : public polling_line {
 public:
-    // settle: called after each exchange, to drain what it changed.
-    serial_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle);
-
-    asio::awaitable<void> run() override;
-    void wake() override;
+    using polling_line::polling_line;
 
 private:
-    asio::awaitable<boost::system::error_code> serve();  // until the port fails
-    asio::awaitable<boost::system::error_code> listen_until(time_point deadline);
-    asio::awaitable<boost::system::error_code> exchange(modbus_line::question question);
-
-    line_config config_;
-    modbus_line& routes_;
-    std::function<void()> settle_;
-    std::unique_ptr<line_connection> connection_;
-    std::array<std::uint8_t, 1024> received_{};
-    duration gap_;
-    time_point line_free_from_{};
-    bool echoes_ = false;  // found out
-    bool idle_ = false;    // waiting until something is due
+    asio::awaitable<boost::system::error_code> exchange(client_line::question question) override;
 };
 
 }  // namespace plcgw

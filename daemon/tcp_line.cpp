@@ -6,7 +6,7 @@ namespace plcgw {
 
 using boost::system::error_code;
 
-tcp_line::tcp_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle)
+tcp_line::tcp_line(asio::io_context& loop, line_config config, client_line& routes, std::function<void()> settle)
     : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), connection_(loop, config_)
 {
 }
@@ -86,7 +86,7 @@ void tcp_line::ask(key who, buffer& out)
     under_way& each = questions_.at(who);
     ++each.attempts;
     const time_point deadline = now() + each.question.timing.response_timeout;
-    const buffer adu = open_.ask(who, each.question.unit, each.question.request, deadline);
+    const buffer adu = open_.ask(who, unit_of(each.question.unit), each.question.request(), deadline);
     out.insert(out.end(), adu.begin(), adu.end());
 }
 

@@ -2,7 +2,7 @@
 // them.
 #pragma once
 
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 #include "daemon/line_driver.hpp"
 #include "daemon/tcp_connection.hpp"
 #include "protocols/modbus/tcp_questions.hpp"
@@ -16,14 +16,14 @@ namespace plcgw {
 class tcp_line final : public line_driver {
 public:
     // settle: called after answers, to drain what they changed.
-    tcp_line(asio::io_context& loop, line_config config, modbus_line& routes, std::function<void()> settle);
+    tcp_line(asio::io_context& loop, line_config config, client_line& routes, std::function<void()> settle);
 
     asio::awaitable<void> run() override;
     void wake() override;
 
 private:
     struct under_way {
-        modbus_line::question question;
+        client_line::question question;
         unsigned attempts = 0;
     };
     using key = modbus::tcp_questions::key;
@@ -38,7 +38,7 @@ private:
     void give_up_all();
 
     line_config config_;
-    modbus_line& routes_;
+    client_line& routes_;
     std::function<void()> settle_;
     tcp_connection connection_;
     modbus::mbap_framer in_;

@@ -52,7 +52,7 @@ private:
         std::deque<forwarded> waiting;  // the first one is under way
         forward_gate::handle under_way;
     };
-    using station_key = std::pair<forward_gate*, modbus::unit_id>;
+    using station_key = std::pair<forward_gate*, station_number>;
 
     void take_questions();
     void take(const modbus::tcp_frame& question);

@@ -10,7 +10,7 @@ namespace plcgw {
 struct unit_target {
     plc::simulated_plc* plc = nullptr;  // answers from its memory
     forward_gate* line = nullptr;       // forwards to that unit of the line
-    modbus::unit_id unit{};
+    station_number unit;                // on that line
 };
 
 using unit_table = std::array<unit_target, 256>;  // neither: exception 0A, there is no path

@@ -5,7 +5,7 @@
 #include "bridge/messages/line_rows.hpp"
 #include "bridge/messages/send_schedule.hpp"
 #include "bridge/messages/standing.hpp"
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 #include "bridge/serial_message.hpp"
 
 namespace plcgw::messages {

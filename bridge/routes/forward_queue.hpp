@@ -2,6 +2,7 @@
 // order in which they came.
 #pragma once
 
+#include "bridge/routes/station_question.hpp"
 #include "protocols/modbus/answer_fault.hpp"
 #include "protocols/modbus/response.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
@@ -18,8 +19,8 @@ enum class forward_ticket : std::uint64_t {};
 
 struct forward_request {
     forward_ticket ticket{};
-    modbus::unit_id unit{};
-    modbus::request request;
+    station_number unit;
+    modbus::request request;                       // also to a MEWTOCOL station: its line translates
     std::optional<modbus::serial_options> timing;  // of the station or the line, if absent
 };
 
@@ -37,7 +38,7 @@ struct forward_fault {
 class forward_queue {
 public:
     // Nothing when as many wait already: exception 06, server device busy.
-    std::optional<forward_ticket> add(modbus::unit_id unit, modbus::request request,
+    std::optional<forward_ticket> add(station_number unit, modbus::request request,
                                       std::optional<modbus::serial_options> timing)
     {
         constexpr std::size_t longest = 64;

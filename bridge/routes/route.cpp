@@ -27,19 +27,41 @@ std::vector<std::uint16_t> packed(const std::vector<bool>& bits)
     return words;
 }
 
-modbus::request write_question(const route& r)
+modbus::request write_question(const route& r, const modbus_place& to)
 {
-    if (modbus::is_bit_table(r.table)) {
+    if (modbus::is_bit_table(to.table)) {
         std::vector<bool> bits = bits_in_memory(r);
         if (bits.size() == 1)
-            return modbus::write_single_coil{r.first, bits[0]};
-        return modbus::write_multiple_coils{r.first, std::move(bits)};
+            return modbus::write_single_coil{to.first, bits[0]};
+        return modbus::write_multiple_coils{to.first, std::move(bits)};
     }
     std::vector<std::uint16_t> words = words_in_memory(r);
     if (words.size() == 1)
-        return modbus::write_single_register{r.first, words[0]};
-    return modbus::write_multiple_registers{r.first, std::move(words)};
+        return modbus::write_single_register{to.first, words[0]};
+    return modbus::write_multiple_registers{to.first, std::move(words)};
 }
+
+// One overload for each protocol.
+struct asker {
+    const route& r;
+
+    station_question operator()(const modbus_place& there) const
+    {
+        if (r.way == direction::read)
+            return modbus::request{modbus::read_table{there.table, there.first, r.count}};
+        return write_question(r, there);
+    }
+    station_question operator()(const mewtocol::device& there) const
+    {
+        const bool reads = r.way == direction::read;
+        if (const auto* const contact = std::get_if<mewtocol::contact>(&there))
+            return reads ? mewtocol::block{mewtocol::read_run{*contact, r.count}}
+                         : mewtocol::block{mewtocol::write_run{*contact, bits_in_memory(r)}};
+        const auto& [area, first] = std::get<mewtocol::word_device>(there);
+        return reads ? mewtocol::block{mewtocol::read_words{area, first, r.count}}
+                     : mewtocol::block{mewtocol::write_words{area, first, words_in_memory(r)}};
+    }
+};
 
 std::vector<std::uint16_t> written_words(const modbus::request& question)
 {
@@ -54,59 +76,75 @@ std::vector<std::uint16_t> written_words(const modbus::request& question)
     return {};
 }
 
+std::vector<std::uint16_t> written_words(const mewtocol::block& question)
+{
+    if (const auto* run = std::get_if<mewtocol::write_run>(&question))
+        return packed(run->values);
+    if (const auto* words = std::get_if<mewtocol::write_words>(&question))
+        return words->values;
+    return {};
+}
+
 // One overload for each response that carries values. The memory's images hold bit and word devices alike, so bits
-// can go into words and registers into bits.
+// can go into words and words into bits.
 struct storer {
     route& r;
-    const modbus::request& question;
+    const station_question& question;
 
-    void operator()(const modbus::bits_read& answer) const
-    {
-        for (std::size_t i = 0; i < answer.values.size(); ++i)
-            r.plc->memory().set_bit({r.at.area, r.at.bit + i}, answer.values[i]);
-        r.words = packed(answer.values);
-    }
-    void operator()(const modbus::registers_read& answer) const
-    {
-        for (std::size_t i = 0; i < answer.values.size(); ++i)
-            r.plc->memory().set_word({r.at.area, r.at.bit + 16 * i}, answer.values[i]);
-        r.words = answer.values;
-    }
-    void operator()(const modbus::written&) const { r.words = written_words(question); }
-    void operator()(const modbus::no_response&) const { r.words = written_words(question); }  // a broadcast
+    void operator()(const modbus::bits_read& answer) const { take(answer.values); }
+    void operator()(const modbus::registers_read& answer) const { take(answer.values); }
+    void operator()(const modbus::written&) const { say_written(); }
+    void operator()(const modbus::no_response&) const { say_written(); }  // a broadcast
+    void operator()(const mewtocol::contacts_read& answer) const { take(answer.values); }
+    void operator()(const mewtocol::words_read& answer) const { take(answer.values); }
+    void operator()(const mewtocol::executed&) const { say_written(); }
+    void operator()(const mewtocol::no_response&) const { say_written(); }  // to the global station
     template <class Other>
     void operator()(const Other&) const
     {
+    }
+
+private:
+    void take(const std::vector<bool>& bits) const
+    {
+        for (std::size_t i = 0; i < bits.size(); ++i)
+            r.plc->memory().set_bit({r.at.area, r.at.bit + i}, bits[i]);
+        r.words = packed(bits);
+    }
+    void take(const std::vector<std::uint16_t>& words) const
+    {
+        for (std::size_t i = 0; i < words.size(); ++i)
+            r.plc->memory().set_word({r.at.area, r.at.bit + 16 * i}, words[i]);
+        r.words = words;
+    }
+    void say_written() const
+    {
+        r.words = std::visit([](const auto& asked) { return written_words(asked); }, question);
     }
 };
 
 }  // namespace
 
-std::size_t bits_of(const route& r) { return modbus::is_bit_table(r.table) ? r.count : std::size_t{16} * r.count; }
+std::size_t bits_of(const route& r) { return is_bits(r.there) ? r.count : std::size_t{16} * r.count; }
 
 bool touches(const route& r, const plc::simulated_plc& plc, const plc::change& changed)
 {
     return r.plc == &plc && plc::overlaps(changed, r.at, bits_of(r));
 }
 
-modbus::request question_of(const route& r)
-{
-    if (r.way == direction::read)
-        return modbus::read_table{r.table, r.first, r.count};
-    return write_question(r);
-}
+station_question question_of(const route& r) { return std::visit(asker{r}, r.there); }
 
-void store(route& r, const modbus::request& question, const modbus::response& answer)
+void store(route& r, const station_question& question, const station_answer& answer)
 {
-    std::visit(storer{r, question}, answer);
+    std::visit([&](const auto& of_protocol) { std::visit(storer{r, question}, of_protocol); }, answer);
 }
 
 sample sample_of(const route& r)
 {
     return {.route = r.name,
-            .area = std::string(modbus::to_string(r.table)),
-            .first = modbus::number(r.first),
-            .format = modbus::is_bit_table(r.table) ? sample_format::bits : sample_format::words,
+            .area = area_name(r.there),
+            .first = number(r.there),
+            .format = is_bits(r.there) ? sample_format::bits : sample_format::words,
             .count = r.count,
             .words = r.words,
             .state = r.state,

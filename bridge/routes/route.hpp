@@ -1,10 +1,10 @@
-// A row of the routing table: registers or bits of a station, and the devices of a PLC that they belong to.
+// A row of the routing table: registers, words or bits of a station, and the devices of a PLC that they belong to.
 #pragma once
 
 #include "bridge/plc/simulated_plc.hpp"
 #include "bridge/routes/quality.hpp"
+#include "bridge/routes/station_question.hpp"
 #include "bridge/sample.hpp"
-#include "protocols/modbus/response.hpp"
 
 namespace plcgw {
 
@@ -17,9 +17,8 @@ struct route {
     std::string name;
     plc::simulated_plc* plc = nullptr;
     plc::place at;          // the first device, in the PLC's memory
-    modbus::table table{};  // of the station
-    modbus::address first{};
-    std::uint16_t count{};  // registers or bits, at most what one request carries
+    station_place there;    // the first register, word or bit, in the station
+    std::uint16_t count{};  // of these; over MODBUS at most what one request carries
     direction way = direction::read;
 
     quality state = quality::never_read;
@@ -28,15 +27,15 @@ struct route {
     std::string reason;                // of a quality that is not good, for the log and the status page
 };
 
-// Bits of memory that a route covers: 16 for each register of the station, whatever the PLC's device is.
+// Bits of memory that a route covers: 16 for each register or word of the station, whatever the PLC's device is.
 std::size_t bits_of(const route& r);
 
 bool touches(const route& r, const plc::simulated_plc& plc, const plc::change& changed);
 
-modbus::request question_of(const route& r);  // a read, or a write of what the memory holds now
+station_question question_of(const route& r);  // a read, or a write of what the memory holds now
 
 // A good answer to that question: what was read goes into the memory, what was said either way into the route's words.
-void store(route& r, const modbus::request& question, const modbus::response& answer);
+void store(route& r, const station_question& question, const station_answer& answer);
 
 sample sample_of(const route& r);
 

@@ -102,8 +102,9 @@ struct station_config {
 struct route_config {
     std::string name;
     std::string station;
-    modbus::table table = modbus::table::holding_registers;
-    unsigned first = 0;
+    std::optional<modbus::table> table;  // of a MODBUS station
+    std::optional<unsigned> first;
+    std::string source;  // of a MEWTOCOL station instead: "DT100", "R1F"
     unsigned count = 1;
     std::string plc;
     std::string device;

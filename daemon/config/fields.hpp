@@ -64,7 +64,7 @@ void describe(Visitor& v, unit_config& c)
     v.required("unit", c.unit, "MODBUS unit id, 0 to 255, or MEWTOCOL station", range{0, 999});
     v.optional("plc", c.plc, "Name of the simulated PLC that answers", text{0, 64});
     v.optional("line", c.line, "Or name of the line to which requests are forwarded", text{0, 64});
-    v.optional("line_unit", c.line_unit, "Unit id on that line; 0 = the same", range{0, 255});
+    v.optional("line_unit", c.line_unit, "Unit id or MEWTOCOL station on that line; 0 = the same", range{0, 999});
     v.optional("channel", c.channel,
                "Channel of the PLC that a server line stands for: its special D and M show it. Of an FP7 the number of "
                "the COM port",
@@ -76,9 +76,10 @@ void describe(Visitor& v, line_config& c)
 {
     v.required("name", c.name, "Name of the line", name_rule);
     v.optional("device", c.device, "Serial port, best a stable name such as /dev/serial/by-id/...", text{});
-    v.optional("host", c.host,
-               "Host instead of a serial port: a MODBUS TCP server, or a device server that passes on RTU or ASCII",
-               text{});
+    v.optional(
+        "host", c.host,
+        "Host instead of a serial port: a MODBUS TCP server, or a device server that passes on what is on its line",
+        text{});
     v.optional("port", c.port, "TCP port of the host", range{1, 65'535});
     v.optional("protocol", c.protocol,
                "What is spoken on the line; with a host, all but modbus-tcp mean a serial device server",
@@ -116,7 +117,10 @@ void describe(Visitor& v, station_config& c)
 {
     v.required("name", c.name, "Name of the device", name_rule);
     v.required("line", c.line, "Name of its line", name_rule);
-    v.required("unit", c.unit, "MODBUS unit id; 0 = broadcast, for write routes only", range{0, 247});
+    v.required(
+        "unit", c.unit,
+        "MODBUS unit id to 247, MEWTOCOL station to 99, MEWTOCOL7 to 999; 0 = all of them, for write routes only",
+        range{0, 999});
     v.optional("response_timeout_ms", c.response_timeout, "As at the line, for this station", range{1, 60'000});
     v.optional("retries", c.retries, "As at the line, for this station", range{0, 20});
 }
@@ -126,9 +130,12 @@ void describe(Visitor& v, route_config& c)
 {
     v.required("name", c.name, "Name of the route: key of its DDS instance", name_rule);
     v.required("station", c.station, "Name of the station", name_rule);
-    v.required("table", c.table, "Table of the station's registers or bits", tables);
-    v.required("first", c.first, "Protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
-    v.optional("count", c.count, "Registers or bits", range{1, 2000});
+    v.optional("table", c.table, "MODBUS: table of the station's registers or bits", tables);
+    v.optional("first", c.first, "MODBUS: protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
+    v.optional("source", c.source,
+               "MEWTOCOL instead: first device of the station, such as DT100, WR3 or R1F; a write route writes there",
+               text{0, 16});
+    v.optional("count", c.count, "Registers, words or bits", range{1, 2000});
     v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
     v.required("device", c.device,
                "First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, WR3 in an FP7", text{2, 16});

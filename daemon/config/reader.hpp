@@ -48,8 +48,8 @@ private:
             out = std::chrono::duration<std::int64_t, Period>(*value);
     }
 
-    template <class T>
-    void read(const nlohmann::json& from, const std::string& at, std::optional<T>& out, const range& rule)
+    template <class T, class Rule>
+    void read(const nlohmann::json& from, const std::string& at, std::optional<T>& out, const Rule& rule)
     {
         read(from, at, out.emplace(), rule);
     }

@@ -71,6 +71,14 @@ json value_schema(const std::vector<std::string>&, const text& rule)
     return {{"type", "array"}, {"items", std::move(item)}};
 }
 
+template <class Enum, std::size_t N>
+json value_schema(const std::optional<Enum>&, const choice<Enum> (&choices)[N])
+{
+    json s = value_schema(choices[0].value, choices);
+    s.erase("default");
+    return s;
+}
+
 template <class Struct>
 json value_schema(const std::vector<Struct>&)
 {

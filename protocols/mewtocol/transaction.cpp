@@ -157,6 +157,7 @@ void transaction<Conversation>::judge(time_point now, const reception& r)
 template <class Conversation>
 void transaction<Conversation>::fail_attempt(time_point now, errc why, bool came)
 {
+    faults_.push_back(why);
     if (!came && unanswered_++ == 0)
         unanswered_since_ = sent_until_;
     line_free_from_ = std::max(heard_ + gap(), now);

@@ -50,7 +50,8 @@ public:
     // Attempts to which no answer came, and the end of the first of them. Their answers may still come.
     unsigned unanswered() const { return unanswered_; }
     time_point unanswered_since() const { return unanswered_since_; }
-    std::size_t stray_bytes() const { return stray_bytes_; }  // heard while nobody was asked
+    const std::vector<errc>& faults() const { return faults_; }  // of each attempt that failed
+    std::size_t stray_bytes() const { return stray_bytes_; }     // heard while nobody was asked
     bool echo_seen() const { return conversation_.echo_seen(); }
     time_point line_free_from() const { return line_free_from_; }
     const Conversation& conversation() const { return conversation_; }
@@ -84,6 +85,7 @@ private:
     bool cleared_ = false;  // AB was sent because the station refused
     unsigned unanswered_ = 0;
     time_point unanswered_since_{};
+    std::vector<errc> faults_;
     std::size_t stray_bytes_ = 0;
     duration response_time_{};
     result<answer_type> outcome_ = make_error_code(errc::timed_out);

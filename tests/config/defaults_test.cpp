@@ -44,8 +44,8 @@ struct value_writer {
     {
         to = value.count();
     }
-    template <class T>
-    static void put(json& to, std::optional<T>& value, const range& rule)
+    template <class T, class Rule>
+    static void put(json& to, std::optional<T>& value, const Rule& rule)
     {
         if (value)
             put(to, *value, rule);

@@ -172,7 +172,7 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
         {R"("device": "/dev/ttyUSB1")", R"("retries": 1)",
          "21 /lines/1 lacks \"device\": the path of a serial port, or \"host\": a device server's address"},
         {R"({ "unit": 2, "plc": "spare" })", R"({ "plc": "spare" })",
-         "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id"},
+         "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id, 0 to 255, or MEWTOCOL station"},
         {R"({ "plc": "main", "device": "M0" })", "{}",
          "76 /dds/blocks/1 has no \"plc\": Name of the simulated PLC\n76 /dds/blocks/1 has no \"device\": First "
          "device"},
@@ -182,11 +182,10 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
     CHECK(said("{\"stations\": [\n{}],\n\"routes\": [\n{}]}") ==
           "2 /stations/0 has no \"name\": Name of the device\n"
           "2 /stations/0 has no \"line\": Name of its line\n"
-          "2 /stations/0 has no \"unit\": MODBUS unit id; 0 = broadcast, for write routes only\n"
+          "2 /stations/0 has no \"unit\": MODBUS unit id to 247, MEWTOCOL station to 99, MEWTOCOL7 to 999; 0 = all of "
+          "them, for write routes only\n"
           "4 /routes/0 has no \"name\": Name of the route: key of its DDS instance\n"
           "4 /routes/0 has no \"station\": Name of the station\n"
-          "4 /routes/0 has no \"table\": Table of the station's registers or bits\n"
-          "4 /routes/0 has no \"first\": Protocol address of the first one, zero-based: 40001 is 0\n"
           "4 /routes/0 has no \"plc\": Name of the simulated PLC\n"
           "4 /routes/0 has no \"device\": First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, "
           "WR3 in an FP7");

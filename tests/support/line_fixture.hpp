@@ -1,7 +1,7 @@
 // A line with two stations, played in virtual time.
 #pragma once
 
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 #include "tests/support/plc_fixture.hpp"
 #include "tests/support/print.hpp"
 #include "tests/support/virtual_time.hpp"
@@ -16,7 +16,7 @@ inline constexpr modbus::serial_options patient{.format = {}, .retries = 2};
 inline constexpr modbus::serial_options hasty{.format = {}, .response_timeout = 200ms};
 
 struct line_fixture : fx3u_fixture {
-    modbus_line line{"bus 1", {{"pump", modbus::unit_id{5}, patient}, {"valve", modbus::unit_id{6}, hasty}}, 10s};
+    client_line line{"bus 1", {{"pump", modbus::unit_id{5}, patient}, {"valve", modbus::unit_id{6}, hasty}}, 10s};
     time_point now = t0;
 
     // Two reads of the pump, one of the valve.
@@ -28,7 +28,7 @@ struct line_fixture : fx3u_fixture {
         line.start(t0);
     }
 
-    modbus_line::question next()
+    client_line::question next()
     {
         auto q = line.next(now);
         for (int i = 0; !q && i < 100; ++i)
@@ -36,12 +36,12 @@ struct line_fixture : fx3u_fixture {
         REQUIRE(q.has_value());
         return *q;
     }
-    void answer(const modbus_line::question& q, const modbus::response& with, wall_time wall = noon)
+    void answer(const client_line::question& q, const modbus::response& with, wall_time wall = noon)
     {
         now += 20ms;
         line.answered(q, with, now, wall);
     }
-    void fail(const modbus_line::question& q, errc why = errc::timed_out)
+    void fail(const client_line::question& q, errc why = errc::timed_out)
     {
         now += 500ms;
         line.failed(q, why, now);

@@ -6,6 +6,8 @@
 
 namespace plcgw::test {
 
+inline modbus::request modbus_question(const route& r) { return std::get<modbus::request>(question_of(r)); }
+
 struct fx3u_fixture {
     plc::simulated_plc plc{"main", plc::fx3u, {}};
 
@@ -24,8 +26,7 @@ struct fx3u_fixture {
         r.name = device;
         r.plc = &plc;
         r.at = at(device);
-        r.table = table;
-        r.first = modbus::address{first};
+        r.there = modbus_place{table, modbus::address{first}};
         r.count = count;
         r.way = way;
         return r;

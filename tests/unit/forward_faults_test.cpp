@@ -1,5 +1,5 @@
 // Whoever has a request forwarded hears of each attempt that failed, before the answer.
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 #include "tests/support/print.hpp"
 
 TEST_SUITE_BEGIN("routes");
@@ -11,7 +11,7 @@ TEST_CASE("forwarding: each failed attempt is told, of the request that it belon
 {
     const time_point now{1s};
     const modbus::request read = modbus::read_table{modbus::table::holding_registers, {}, 1};
-    modbus_line line("line", {}, 1s);
+    client_line line("line", {}, 1s);
     line.start(now);
     line.port_opened();
     const auto first = line.forward(modbus::unit_id{1}, read);

@@ -1,4 +1,4 @@
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +25,7 @@ struct forwarding_line {
         return *line.forward(modbus::unit_id{static_cast<std::uint8_t>(unit)}, ask_one);
     }
 
-    modbus_line line{"line", {}, std::chrono::seconds(1)};
+    client_line line{"line", {}, std::chrono::seconds(1)};
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ public:
         route r;
         r.plc = &plc;
         r.at = at(device);
-        r.table = from;
+        r.there = modbus_place{from, {}};
         r.count = count;
         return r;
     }

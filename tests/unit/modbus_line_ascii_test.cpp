@@ -15,7 +15,7 @@ struct told_pump : line_fixture {
         const auto q = ask({modbus::diagnostics{modbus::diagnostic::change_ascii_delimiter, {'$', 0}}});
         answer(q, modbus::diagnostics_answered{{'$', 0}});
     }
-    modbus_line::question ask(modbus::request what, modbus::unit_id unit = modbus::unit_id{5})
+    client_line::question ask(modbus::request what, modbus::unit_id unit = modbus::unit_id{5})
     {
         line.forward(unit, std::move(what));
         return next();

@@ -29,7 +29,7 @@ TEST_CASE("modbus line: a failure keeps value and time, and the quality turns")
         f.answer(again, bits_read{{true, true, true}});
         again = f.next();
     }
-    CHECK(again.request == request{read_table{table::holding_registers, address{0x10}, 2}});  // the same question
+    CHECK(again.request() == request{read_table{table::holding_registers, address{0x10}, 2}});  // the same question
     CHECK(again.timing.retries == 0);
     f.answer(again, registers_read{{7, 9}}, wall_time{5});
     CHECK(f.said("D100").state == quality::good);

@@ -13,7 +13,7 @@ TEST_CASE("modbus line: a question knows its station and when it was asked")
     f.add_reads();
     const auto first = f.next();
     CHECK(first.unit == unit_id{5});
-    CHECK(first.request == request{read_table{table::holding_registers, address{0x10}, 2}});
+    CHECK(first.request() == request{read_table{table::holding_registers, address{0x10}, 2}});
     CHECK(first.timing.retries == 2);
     CHECK(first.asked_at == t0);
     f.answer(first, registers_read{{1, 2}});

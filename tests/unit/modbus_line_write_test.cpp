@@ -23,7 +23,7 @@ TEST_CASE("modbus line: a write route goes out when its devices change, not at s
     CHECK(f.memory_changed());
     const auto q = f.line.next(t0 + 1min);
     REQUIRE(q.has_value());
-    CHECK(q->request == request{write_multiple_registers{address{0x20}, {0, 42}}});
+    CHECK(q->request() == request{write_multiple_registers{address{0x20}, {0, 42}}});
     f.line.answered(*q, written{}, t0 + 1min + 20ms, noon);
     CHECK_FALSE(f.line.next(t0 + 2min).has_value());
 
@@ -45,12 +45,12 @@ TEST_CASE("modbus line: the value that goes out is the one of the moment it goes
     }
     const auto q = f.line.next(t0);
     REQUIRE(q.has_value());
-    CHECK(q->request == request{write_single_register{address{0x20}, 3}});
+    CHECK(q->request() == request{write_single_register{address{0x20}, 3}});
 
     f.set("D100", 4);  // while it is on its way
     CHECK(f.memory_changed());
     f.line.answered(*q, written{}, t0 + 20ms, noon);
-    CHECK(f.line.next(t0 + 20ms)->request == request{write_single_register{address{0x20}, 4}});
+    CHECK(f.line.next(t0 + 20ms)->request() == request{write_single_register{address{0x20}, 4}});
 }
 
 TEST_CASE("modbus line: what one route reads, another may write elsewhere")
@@ -62,7 +62,7 @@ TEST_CASE("modbus line: what one route reads, another may write elsewhere")
     const auto read = f.line.next(t0);
     f.line.answered(*read, registers_read{{5}}, t0 + 20ms, noon);
     CHECK(f.memory_changed());
-    CHECK(f.line.next(t0 + 20ms)->request == request{write_single_register{address{0x20}, 5}});
+    CHECK(f.line.next(t0 + 20ms)->request() == request{write_single_register{address{0x20}, 5}});
 }
 
 TEST_CASE("modbus line: a write that the port swallowed goes out again, a refused one waits for the next change")
@@ -76,14 +76,14 @@ TEST_CASE("modbus line: a write that the port swallowed goes out again, a refuse
     f.line.interrupted(*swallowed);
     const auto again = f.line.next(t0 + 1s);
     REQUIRE(again.has_value());
-    CHECK(again->request == request{write_single_coil{address{0}, true}});
+    CHECK(again->request() == request{write_single_coil{address{0}, true}});
 
     f.line.answered(*again, exception_code::illegal_data_address, t0 + 1s, noon);
     CHECK_FALSE(f.line.next(t0 + 1h).has_value());
     CHECK(f.line.take_samples(t0 + 1h)[0].state == quality::device_error);
     f.set_bit("M0", false);
     f.memory_changed();
-    CHECK(f.line.next(t0 + 1h)->request == request{write_single_coil{address{0}, false}});
+    CHECK(f.line.next(t0 + 1h)->request() == request{write_single_coil{address{0}, false}});
 }
 
 TEST_CASE("modbus line: a neighbouring bit of the same register sends nothing")

@@ -6,6 +6,7 @@ TEST_SUITE_BEGIN("routes");
 using namespace plcgw;
 using namespace plcgw::modbus;
 using plcgw::test::fx3u_fixture;
+using plcgw::test::modbus_question;
 using words = std::vector<std::uint16_t>;
 
 namespace {
@@ -20,10 +21,10 @@ constexpr auto holding = table::holding_registers;
 TEST_CASE("route: the question of a read is the same every time")
 {
     fx3u_fixture f;
-    CHECK(question_of(f.route_to("D100", holding, 0x10, 3)) == request{read_table{holding, address{0x10}, 3}});
-    CHECK(question_of(f.route_to("D100", input, 0, 125)) == request{read_table{input, address{0}, 125}});
-    CHECK(question_of(f.route_to("M0", discrete, 7, 1)) == request{read_table{discrete, address{7}, 1}});
-    CHECK(question_of(f.route_to("M0", coils, 7, 2000)) == request{read_table{coils, address{7}, 2000}});
+    CHECK(modbus_question(f.route_to("D100", holding, 0x10, 3)) == request{read_table{holding, address{0x10}, 3}});
+    CHECK(modbus_question(f.route_to("D100", input, 0, 125)) == request{read_table{input, address{0}, 125}});
+    CHECK(modbus_question(f.route_to("M0", discrete, 7, 1)) == request{read_table{discrete, address{7}, 1}});
+    CHECK(modbus_question(f.route_to("M0", coils, 7, 2000)) == request{read_table{coils, address{7}, 2000}});
 }
 
 TEST_CASE("route: the question of a write carries what the memory holds now")
@@ -33,7 +34,7 @@ TEST_CASE("route: the question of a write carries what the memory holds now")
     f.set("D101", 0xABCD);
     f.set("M20", 0x0005);
     const auto write = [&](const char* device, table to, std::uint16_t count) {
-        return question_of(f.route_to(device, to, 9, count, direction::write));
+        return modbus_question(f.route_to(device, to, 9, count, direction::write));
     };
     CHECK(write("D100", holding, 1) == request{write_single_register{address{9}, 0x1234}});
     CHECK(write("D100", holding, 2) == request{write_multiple_registers{address{9}, {0x1234, 0xABCD}}});
@@ -106,7 +107,7 @@ TEST_CASE("route: a write that was taken says what was written, the memory may h
     for (const auto& row : rows) {
         CAPTURE(row.device);
         route r = f.route_to(row.device, row.to, 0, row.count, direction::write);
-        const request asked = question_of(r);
+        const request asked = modbus_question(r);
         f.set(row.device, 0x00F0);
         store(r, asked, written{});
         CHECK(r.words == row.said);

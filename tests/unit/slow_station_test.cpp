@@ -1,6 +1,6 @@
 // A station that answers everything, but later than its response timeout. DECISIONS.md: a late answer is never stored
 // for another address, whatever the line makes of it.
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 #include "tests/support/plc_fixture.hpp"
 #include "tests/support/print.hpp"
 #include "tests/support/virtual_time.hpp"
@@ -52,9 +52,9 @@ public:
     }
 
 private:
-    void exchange(const modbus_line::question& q)
+    void exchange(const client_line::question& q)
     {
-        serial_transaction t(q.unit, q.request, q.timing, free_from_, now_);
+        serial_transaction t(unit_of(q.unit), q.request(), q.timing, free_from_, now_);
         for (;;) {
             const auto action = t.next(now_);
             if (std::holds_alternative<serial_transaction::done>(action))
@@ -62,7 +62,7 @@ private:
             if (std::holds_alternative<serial_transaction::send>(action)) {
                 t.sent(now_);
                 free_ = (one_by_one_ ? std::max(now_, free_) : now_) + delay_;
-                on_their_way_.push_back({free_, answer_to(std::get<read_table>(q.request))});
+                on_their_way_.push_back({free_, answer_to(std::get<read_table>(q.request()))});
             }
             else if (const auto late = next_answer(std::get<serial_transaction::wait>(action).until)) {
                 t.feed(now_, *late);
@@ -106,7 +106,7 @@ private:
     bool one_by_one_;  // reads its next request when it has answered the one before
     time_point free_ = t0;
     serial_options timing_;
-    modbus_line routes_;
+    client_line routes_;
     time_point now_ = t0;
     time_point free_from_ = t0;
     std::deque<answer> on_their_way_;

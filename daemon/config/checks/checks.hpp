@@ -21,6 +21,9 @@ void check_units(check_context& c, const std::string& list, const std::vector<un
 // An ASCII line or listener for this PLC, which may have RTU only. at: of the key that brings them together.
 void check_ascii(check_context& c, const std::string& at, const std::string& plc);
 
+// Where a route's values are in its station. line: of the station, if known.
+std::size_t check_station_place(check_context& c, std::size_t i, const route_config& r, const line_config* line);
+
 // A line on which somebody can be asked.
 void check_client_line(check_context& c, const std::string& name, const std::string& at);
 

@@ -26,8 +26,6 @@ void check_names(check_context& c, const std::string& at, const std::vector<mewt
 
 void check_mewtocol(check_context& c, std::size_t i, const line_config& l)
 {
-    if (l.role == line_role::client && c.is_sound(item("lines", i)))
-        c.complain(item("lines", i, "protocol"), "is one that this version speaks as server only: give \"role\"");
     const std::string at = item("lines", i, "mewtocol") + "/dialect";
     const mewtocol7::dialect& d = l.mewtocol.dialect;
     const std::pair<const char*, const std::string*> texts[] = {{"item", &d.item},

@@ -3,25 +3,11 @@
 namespace plcgw::config {
 namespace {
 
-void check_request(check_context& c, std::size_t i, const route_config& r)
-{
-    const bool bits = modbus::is_bit_table(r.table);
-    const bool writable = r.table == modbus::table::coils || r.table == modbus::table::holding_registers;
-    if (r.way == direction::write && !writable)
-        c.complain(item("routes", i, "table"), "is read-only in MODBUS: a write route needs coil or holding");
-    const unsigned most = r.way == direction::read ? (bits ? modbus::max_read_bits : modbus::max_read_registers)
-                                                   : (bits ? modbus::max_write_coils : modbus::max_write_registers);
-    if (r.count > most)
-        c.complain(item("routes", i, "count"), "is " + std::to_string(r.count) + ", but one MODBUS request carries " +
-                                                   std::to_string(most) + ": split the route");
-    if (r.first + r.count > 65'536)
-        c.complain(item("routes", i, "count"), "goes beyond address 65535");
-}
-
 void check_route(check_context& c, device_check& devices, occupied_devices& occupied, std::size_t i,
                  const route_config& r)
 {
     const auto* const from = c.station(r.station, item("routes", i, "station"));
+    const auto* const line = from == nullptr ? nullptr : c.lines.find(from->line);
     if (!c.is_sound(item("routes", i))) {
         devices.place_of(item("routes", i), r.plc, r.device, 1);
         return;
@@ -29,8 +15,7 @@ void check_route(check_context& c, device_check& devices, occupied_devices& occu
     if (from != nullptr && from->unit == 0 && r.way == direction::read)
         c.complain(item("routes", i, "station"),
                    "is unit 0, the broadcast: nobody answers, only write routes can use it");
-    check_request(c, i, r);
-    const std::size_t bits = modbus::is_bit_table(r.table) ? r.count : std::size_t{16} * r.count;
+    const std::size_t bits = check_station_place(c, i, r, line);
     const auto at = devices.place_of(item("routes", i), r.plc, r.device, bits);
     if (!at || r.way != direction::read)
         return;

@@ -49,7 +49,7 @@ void check_server(check_context& c, std::size_t i, const tcp_server_config& s)
     for (std::size_t u = 0; u < s.units.size(); ++u)
         if (s.units[u].unit > 255)
             c.complain(item("modbus_tcp", i, "units") + "/" + std::to_string(u) + "/unit",
-                       "is " + std::to_string(s.units[u].unit) + ", expected a whole number from 0 to 255");
+                       "is " + std::to_string(s.units[u].unit) + ", but MODBUS unit ids end at 255");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The routes of one MODBUS line: which question goes out next, and what its answer does to memory and quality.
+// The routes of one line on which the gateway asks: which question goes out next, and what its answer does to memory
+// and quality.
 #pragma once
 
 #include "bridge/routes/forward_queue.hpp"
@@ -12,7 +13,7 @@ namespace plcgw {
 
 struct station {
     std::string name;
-    modbus::unit_id unit{};
+    station_number unit;
     modbus::serial_options timing;
 };
 
@@ -22,10 +23,10 @@ struct line_event {
     std::string text;
 };
 
-class modbus_line {
+class client_line {
 public:
     // timing: of requests to units that are no station of this line.
-    modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
+    client_line(std::string name, std::vector<station> stations, duration longest_silence,
                 const modbus::serial_options& timing = {});
 
     void add_route(route r, std::size_t station, duration period);
@@ -33,7 +34,7 @@ public:
 
     // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent or the station
     // is known to be down. Nothing when too many wait.
-    std::optional<forward_ticket> forward(modbus::unit_id unit, modbus::request request,
+    std::optional<forward_ticket> forward(station_number unit, modbus::request request,
                                           std::optional<modbus::serial_options> timing = {});
     std::vector<forward_answer> take_forwarded() { return forwards_.take_answers(); }
     std::vector<forward_fault> take_forward_faults()
@@ -46,10 +47,12 @@ public:
 
     struct question {
         std::variant<schedule::turn, forward_ticket> origin;
-        modbus::unit_id unit{};
-        modbus::request request;
+        station_number unit;
+        station_question asked;
         modbus::serial_options timing;
         time_point asked_at{};
+
+        const modbus::request& request() const { return std::get<modbus::request>(asked); }  // of a MODBUS line
     };
 
     std::optional<question> next(time_point now);
@@ -67,7 +70,7 @@ public:
     bool attempt_failed(const question& q, const modbus::answer_fault& why);
 
     // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered.
-    void answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
+    void answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
                   unanswered_requests late = {});
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
     void interrupted(const question& q);  // the port went away: the station is not to blame
@@ -104,10 +107,10 @@ private:
     void set_quality(row& of, quality state, const std::string& reason);
     std::optional<question> next_poll(time_point now);
     std::optional<question> next_forward(time_point now);
-    const station* find(modbus::unit_id unit) const;
-    std::uint8_t delimiter_of(modbus::unit_id unit, std::uint8_t of_a_stranger) const;
-    void learn_delimiter(const question& q, const modbus::response& answer);
-    void doubt_delimiter(modbus::unit_id unit);
+    const station* find(station_number unit) const;
+    std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;
+    void learn_delimiter(const question& q, const station_answer& answer);
+    void doubt_delimiter(station_number unit);
     void lose(row& of, const std::string& why);
     void age(row& of, time_point now);
     void station_down(std::size_t index, const std::string& reason);
@@ -128,7 +131,7 @@ private:
         std::uint8_t character;
         bool in_force = true;
     };
-    std::map<modbus::unit_id, told_delimiter> delimiters_;
+    std::map<station_number, told_delimiter> delimiters_;
     duration longest_silence_;
     std::vector<line_event> events_;
 };

@@ -1,4 +1,4 @@
-#include "bridge/routes/modbus_line.hpp"
+#include "bridge/routes/client_line.hpp"
 
 #include <algorithm>
 
@@ -9,23 +9,9 @@ constexpr int periods_until_stale = 3;
 constexpr duration least_longest_delay = std::chrono::seconds(5);
 constexpr duration refused_write_pause = std::chrono::seconds(1);
 
-// Exceptions that say "not now" rather than "never".
-bool may_pass(modbus::exception_code code)
-{
-    return code == modbus::exception_code::acknowledge || code == modbus::exception_code::server_device_busy;
-}
-
-std::string exception_text(modbus::exception_code code)
-{
-    constexpr std::string_view digits = "0123456789ABCDEF";
-    const auto value = static_cast<unsigned>(code);
-    return std::string("exception ") + digits[value / 16 % 16] + digits[value % 16] + " (" +
-           std::string(modbus::to_string(code)) + ")";
-}
-
 }  // namespace
 
-modbus_line::modbus_line(std::string name, std::vector<station> stations, duration longest_silence,
+client_line::client_line(std::string name, std::vector<station> stations, duration longest_silence,
                          const modbus::serial_options& timing)
     : name_(std::move(name)), stations_(std::move(stations)), schedule_(stations_.size()), timing_(timing),
       longest_silence_(longest_silence)
@@ -36,7 +22,7 @@ modbus_line::modbus_line(std::string name, std::vector<station> stations, durati
     }
 }
 
-void modbus_line::add_route(route r, std::size_t station, duration period)
+void client_line::add_route(route r, std::size_t station, duration period)
 {
     if (r.way == direction::read)
         schedule_.add_poll(station, period);
@@ -49,7 +35,7 @@ void modbus_line::add_route(route r, std::size_t station, duration period)
     added.period = period;
 }
 
-std::optional<forward_ticket> modbus_line::forward(modbus::unit_id unit, modbus::request request,
+std::optional<forward_ticket> client_line::forward(station_number unit, modbus::request request,
                                                    std::optional<modbus::serial_options> timing)
 {
     const auto ticket = forwards_.add(unit, std::move(request), std::move(timing));
@@ -59,7 +45,7 @@ std::optional<forward_ticket> modbus_line::forward(modbus::unit_id unit, modbus:
 }
 
 // Forwarded requests and routes take turns when both want the line.
-std::optional<modbus_line::question> modbus_line::next(time_point now)
+std::optional<client_line::question> client_line::next(time_point now)
 {
     std::optional<question> chosen;
     if (!forwarded_last_)
@@ -74,7 +60,7 @@ std::optional<modbus_line::question> modbus_line::next(time_point now)
     return chosen;
 }
 
-std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
+std::optional<client_line::question> client_line::next_forward(time_point now)
 {
     while (!forwards_.empty()) {
         forward_request first = forwards_.take();
@@ -89,7 +75,7 @@ std::optional<modbus_line::question> modbus_line::next_forward(time_point now)
     return std::nullopt;
 }
 
-std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_stranger) const
+std::uint8_t client_line::delimiter_of(station_number unit, std::uint8_t of_a_stranger) const
 {
     const auto told = delimiters_.find(unit);
     if (told == delimiters_.end())
@@ -97,32 +83,36 @@ std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_s
     return told->second.in_force ? told->second.character : modbus::ascii_delimiter;
 }
 
-void modbus_line::learn_delimiter(const question& q, const modbus::response& answer)
+void client_line::learn_delimiter(const question& q, const station_answer& answer)
 {
-    const auto* const asked = std::get_if<modbus::diagnostics>(&q.request);
-    if (asked == nullptr || asked->what != modbus::diagnostic::change_ascii_delimiter || asked->data.empty())
+    const auto* const response = std::get_if<modbus::response>(&answer);
+    const auto* const request = std::get_if<modbus::request>(&q.asked);
+    const auto* const asked = request == nullptr ? nullptr : std::get_if<modbus::diagnostics>(request);
+    if (asked == nullptr || response == nullptr || asked->what != modbus::diagnostic::change_ascii_delimiter ||
+        asked->data.empty())
         return;
-    if (std::holds_alternative<modbus::diagnostics_answered>(answer))
+    if (std::holds_alternative<modbus::diagnostics_answered>(*response))
         delimiters_[q.unit] = {asked->data[0]};
-    else if (q.unit == modbus::unit_id::broadcast && std::holds_alternative<modbus::no_response>(answer))
+    else if (q.unit == station_number(modbus::unit_id::broadcast) &&
+             std::holds_alternative<modbus::no_response>(*response))
         for (unsigned unit = 0; unit <= 247; ++unit)  // whoever did not hear it is found out by asking
-            delimiters_[modbus::unit_id{static_cast<std::uint8_t>(unit)}] = {asked->data[0]};
+            delimiters_[station_number(unit)] = {asked->data[0]};
 }
 
-void modbus_line::doubt_delimiter(modbus::unit_id unit)
+void client_line::doubt_delimiter(station_number unit)
 {
     if (const auto told = delimiters_.find(unit); told != delimiters_.end())
         told->second.in_force = !told->second.in_force;
 }
 
-const station* modbus_line::find(modbus::unit_id unit) const
+const station* client_line::find(station_number unit) const
 {
     const auto found =
         std::find_if(stations_.begin(), stations_.end(), [unit](const station& each) { return each.unit == unit; });
     return found == stations_.end() ? nullptr : &*found;
 }
 
-std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
+std::optional<client_line::question> client_line::next_poll(time_point now)
 {
     const auto turn = schedule_.next(now);
     if (!turn)
@@ -135,7 +125,7 @@ std::optional<modbus_line::question> modbus_line::next_poll(time_point now)
     return q;
 }
 
-bool modbus_line::attempt_failed(const question& q, const modbus::answer_fault& why)
+bool client_line::attempt_failed(const question& q, const modbus::answer_fault& why)
 {
     const auto* const forwarded = std::get_if<forward_ticket>(&q.origin);
     if (forwarded != nullptr)
@@ -143,12 +133,12 @@ bool modbus_line::attempt_failed(const question& q, const modbus::answer_fault& 
     return forwarded != nullptr;
 }
 
-void modbus_line::answered(const question& q, const modbus::response& answer, time_point now, wall_time wall,
+void client_line::answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
                            unanswered_requests late)
 {
     learn_delimiter(q, answer);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
-        forwards_.answer(*forwarded, answer);
+        forwards_.answer(*forwarded, std::get<modbus::response>(answer));
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
@@ -159,21 +149,21 @@ void modbus_line::answered(const question& q, const modbus::response& answer, ti
         note(line_event::severity::info, label(stations_[of.station]) + " answers again");
 
     of.answered = true;
-    if (const auto* refused = std::get_if<modbus::exception_code>(&answer)) {
-        set_quality(of, quality::device_error, exception_text(*refused));
-        if (of.content.way == direction::write && may_pass(*refused))
+    if (const auto refused = refusal_in(answer)) {
+        set_quality(of, quality::device_error, refused->reason);
+        if (of.content.way == direction::write && refused->may_pass)
             schedule_.ask(turn.item, now + refused_write_pause);
         return;
     }
     const std::vector<std::uint16_t> words_before = of.content.words;
-    store(of.content, q.request, answer);
+    store(of.content, q.asked, answer);
     of.content.source = wall;
     of.good_at = now;
     of.changed = of.changed || of.content.words != words_before;
     set_quality(of, quality::good, {});
 }
 
-void modbus_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
+void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
 {
     doubt_delimiter(q.unit);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
@@ -186,12 +176,13 @@ void modbus_line::failed(const question& q, boost::system::error_code why, time_
     const bool asked = why != errc::line_not_quiet;
     schedule_.finished(turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
                        late);
-    set_quality(of, quality::comm_error, why.message());
+    const std::string reason = reason_of(q.asked, why);
+    set_quality(of, quality::comm_error, reason);
     if (before != health::down && schedule_.state_of(of.station) == health::down)
-        station_down(of.station, why.message());
+        station_down(of.station, reason);
 }
 
-void modbus_line::interrupted(const question& q)
+void client_line::interrupted(const question& q)
 {
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin))
         forwards_.answer(*forwarded, make_error_code(errc::port_absent));
@@ -199,7 +190,7 @@ void modbus_line::interrupted(const question& q)
         schedule_.finished(std::get<schedule::turn>(q.origin), schedule::outcome::not_asked, {}, q.asked_at);
 }
 
-void modbus_line::port_lost(const std::string& why)
+void client_line::port_lost(const std::string& why)
 {
     for (row& each : routes_)
         lose(each, why);
@@ -208,13 +199,13 @@ void modbus_line::port_lost(const std::string& why)
 }
 
 // A value that nobody can renew now. What is only written is as good as it was.
-void modbus_line::lose(row& of, const std::string& why)
+void client_line::lose(row& of, const std::string& why)
 {
     if (of.content.way == direction::read)
         set_quality(of, quality::comm_error, why);
 }
 
-bool modbus_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
+bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
 {
     bool due = false;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
@@ -226,7 +217,7 @@ bool modbus_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
     return due;
 }
 
-std::vector<sample> modbus_line::take_samples(time_point now)
+std::vector<sample> client_line::take_samples(time_point now)
 {
     std::vector<sample> samples;
     for (row& each : routes_) {
@@ -242,20 +233,20 @@ std::vector<sample> modbus_line::take_samples(time_point now)
 }
 
 // A value that is not renewed although its station answers, because the line is overloaded.
-void modbus_line::age(row& of, time_point now)
+void client_line::age(row& of, time_point now)
 {
     const bool polled = of.content.way == direction::read;
     if (polled && of.content.state == quality::good && now - of.good_at > periods_until_stale * of.period)
         set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods");
 }
 
-void modbus_line::say_everything()
+void client_line::say_everything()
 {
     for (row& each : routes_)
         each.changed = true;
 }
 
-std::size_t modbus_line::routes_up() const
+std::size_t client_line::routes_up() const
 {
     return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(), [](const row& each) {
         const bool idle_write = each.content.way == direction::write && each.content.state == quality::never_read;
@@ -263,7 +254,7 @@ std::size_t modbus_line::routes_up() const
     }));
 }
 
-void modbus_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
+void client_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
 {
     const plc::change span{at.area, at.bit, bits};
     for (const row& each : routes_) {
@@ -275,7 +266,7 @@ void modbus_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place a
     }
 }
 
-void modbus_line::set_quality(row& of, quality state, const std::string& reason)
+void client_line::set_quality(row& of, quality state, const std::string& reason)
 {
     route& r = of.content;
     if (state == quality::device_error && (r.state != state || r.reason != reason))
@@ -288,7 +279,7 @@ void modbus_line::set_quality(row& of, quality state, const std::string& reason)
     r.reason = reason;
 }
 
-void modbus_line::station_down(std::size_t index, const std::string& reason)
+void client_line::station_down(std::size_t index, const std::string& reason)
 {
     note(line_event::severity::warning,
          label(stations_[index]) + " does not answer (" + reason + "): its values are kept, it is probed from now on");
@@ -297,9 +288,9 @@ void modbus_line::station_down(std::size_t index, const std::string& reason)
             lose(each, reason);
 }
 
-std::string modbus_line::label(const station& of) const
+std::string client_line::label(const station& of) const
 {
-    return "line " + name_ + ", station " + of.name + " (unit " + std::to_string(modbus::number(of.unit)) + ")";
+    return "line " + name_ + ", station " + of.name + " (unit " + std::to_string(number(of.unit)) + ")";
 }
 
 }  // namespace plcgw

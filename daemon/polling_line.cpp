@@ -1,0 +1,82 @@
+#include "daemon/polling_line.hpp"
+
+#include "daemon/log.hpp"
+
+#include <algorithm>
+
+namespace plcgw {
+
+using boost::system::error_code;
+
+polling_line::polling_line(asio::io_context& loop, line_config config, client_line& routes,
+                           std::function<void()> settle)
+    : config_(std::move(config)), routes_(routes), settle_(std::move(settle)),
+      connection_(make_connection(loop, config_)), gap_(std::max<duration>(config_.gap, frame_gap(format_of(config_))))
+{
+}
+
+asio::awaitable<void> polling_line::run()
+{
+    routes_.start(now());
+    for (;;) {
+        const bool is_open = co_await connection_->open();
+        if (is_open) {
+            line_free_from_ = now() + gap_;
+            routes_.port_opened();
+            const error_code ec = co_await serve();
+            connection_->close(ec);
+        }
+        routes_.port_lost(connection_->absence());
+        settle_();
+    }
+}
+
+void polling_line::wake()
+{
+    if (idle_)
+        connection_->interrupt();
+}
+
+asio::awaitable<error_code> polling_line::serve()
+{
+    for (;;) {
+        std::optional<client_line::question> question = routes_.next(now());
+        error_code ec;
+        if (question) {
+            ec = co_await exchange(*question);
+            if (ec)
+                routes_.interrupted(*question);
+            else if (connection_->deaf())
+                ec = asio::error::timed_out;
+            settle_();
+        }
+        else {
+            settle_();  // what was answered without asking
+            const time_point due = routes_.wake_at(now());
+            ec = co_await listen_until(due);
+        }
+        if (ec)
+            co_return ec;
+    }
+}
+
+// Nothing is due. Bytes that come now belong to nobody, but they keep the line busy; an unplugged port is noticed.
+asio::awaitable<error_code> polling_line::listen_until(time_point deadline)
+{
+    idle_ = true;
+    const auto size = co_await connection_->read(deadline, asio::buffer(received_));
+    idle_ = false;
+    if (size)
+        line_free_from_ = std::max(line_free_from_, now() + gap_);
+    else if (size.error() != asio::error::timed_out)
+        co_return size.error();
+    co_return error_code{};
+}
+
+void polling_line::note_echo()
+{
+    if (!std::exchange(echoes_, true))
+        log::info("line {}: the adapter returns what it sends, that is left out from now on", config_.name);
+}
+
+}  // namespace plcgw
