@@ -79,7 +79,7 @@ TEST_CASE("reader: wrong values of each type")
         {R"("parity": "none")", R"("parity": "")", R"(18 /lines/0/parity is "", expected one of: none, odd, even)"},
         {R"("parity": "none")", R"("parity": 0)", "18 /lines/0/parity is 0, expected one of: none, odd, even"},
         {R"("parity": "none")", R"("parity": "none", "protocol": "profibus")",
-         R"(18 /lines/0/protocol is "profibus", expected one of: modbus-rtu, modbus-ascii, modbus-tcp, general-purpose)"},
+         R"(18 /lines/0/protocol is "profibus", expected one of: modbus-rtu, modbus-ascii, modbus-tcp, mewtocol-com, mewtocol7-com, general-purpose)"},
         {R"("table": "discrete")", R"("table": "coils")",
          R"(54 /routes/2/table is "coils", expected one of: coil, discrete, input, holding)"},
         {R"("level": "debug")", R"("level": "verbose")",
@@ -172,7 +172,7 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
         {R"("device": "/dev/ttyUSB1")", R"("retries": 1)",
          "21 /lines/1 lacks \"device\": the path of a serial port, or \"host\": a device server's address"},
         {R"({ "unit": 2, "plc": "spare" })", R"({ "plc": "spare" })",
-         "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id"},
+         "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id, 0 to 255, or MEWTOCOL station"},
         {R"({ "plc": "main", "device": "M0" })", "{}",
          "76 /dds/blocks/1 has no \"plc\": Name of the simulated PLC\n76 /dds/blocks/1 has no \"device\": First "
          "device"},
