@@ -79,7 +79,7 @@ TEST_CASE("reader: wrong values of each type")
         {R"("parity": "none")", R"("parity": "")", R"(18 /lines/0/parity is "", expected one of: none, odd, even)"},
         {R"("parity": "none")", R"("parity": 0)", "18 /lines/0/parity is 0, expected one of: none, odd, even"},
         {R"("parity": "none")", R"("parity": "none", "protocol": "profibus")",
-         R"(18 /lines/0/protocol is "profibus", expected one of: modbus-rtu, modbus-ascii, modbus-tcp, general-purpose)"},
+         R"(18 /lines/0/protocol is "profibus", expected one of: modbus-rtu, modbus-ascii, modbus-tcp, mewtocol-com, mewtocol7-com, general-purpose)"},
         {R"("table": "discrete")", R"("table": "coils")",
          R"(54 /routes/2/table is "coils", expected one of: coil, discrete, input, holding)"},
         {R"("level": "debug")", R"("level": "verbose")",

@@ -183,7 +183,6 @@ class MewtocolServerTest(InteropTest):
             for bit in range(8):
                 self.raw.send(good[:at] + bytes([good[at] ^ 1 << bit]) + good[at + 1:])
             self.raw.send(good[:at])
-        self.raw.send(b"\r")
         self.raw.send(frame(RT))
         self.raw.until(RT_ANSWER)
         self.assertEqual(self.door.holding(0), [0])
@@ -238,9 +237,9 @@ class MewtocolServerTest(InteropTest):
         self.start_raw((7,))
         watch = self.gateway.watch()
         # MEWTOCOL-COM, station 7, 9600 bit/s, 8 bits, odd, 1 stop bit.
-        words = watch.expect("fp7.UM100")["registers"]
+        words = watch.expect("fp7.UM100")["values"]
         self.assertEqual(words[:6], [0, 7, 5, 1, 1, 0])
-        self.assertEqual(watch.expect("fp7.UM150")["registers"][:2], [0, 232])
+        self.assertEqual(watch.expect("fp7.UM150")["values"][:2], [0, 232])
         self.assertEqual(self.door.discrete(0, 0x20), [0] * 0xC + [1] + [0] * 0x13)  # XC: can ask
         self.assertEqual(self.plc_command("stop", "fp7")[0], 0)
         self.assertEqual(self.door.discrete(0xC), [0])
@@ -289,7 +288,7 @@ class MewtocolServerTest(InteropTest):
         with self.assertRaises(Refused) as raised:
             client.do(client.modbus.mask_write_register(address=10, and_mask=0xF0FF, or_mask=0x0400, unit=5))
         self.assertEqual(raised.exception.code, 1)
-        words = self.gateway.watch().expect("fp7.UM100")["registers"]
+        words = self.gateway.watch().expect("fp7.UM100")["values"]
         self.assertEqual(words[:6], [2, 5, 6, 1, 0, 0])
         client.write_coil(RESET, 1)
         self.assertEqual(client.discrete(RESET), [1])
