@@ -28,6 +28,7 @@ void check(const gateway_config& c, const located_json& file, const std::string&
     check_stations(context);
     check_routes(context);
     check_servers(context);
+    check_plc_links(context);
     check_dds(context);
 }
 
