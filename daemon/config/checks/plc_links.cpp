@@ -13,14 +13,15 @@ constexpr auto list = "plc_links";
 void check_plc_of(check_context& c, std::size_t i, std::map<std::pair<std::string, unsigned>, std::size_t>& taken)
 {
     const plc_link_config& l = c.config.plc_links[i];
-    if (c.plc(l.plc, item(list, i, "plc")) == nullptr)
+    const plc_config* const owner = c.plc(l.plc, item(list, i, "plc"));
+    if (owner == nullptr || !c.is_sound(item(list, i)))
         return;
-    const plc::model* const model = c.model_of(l.plc);
+    // A model that could not be read has a default in its place.
+    const auto row = static_cast<std::size_t>(owner - c.config.plcs.data());
+    const plc::model* const model = c.is_sound(item("plcs", row)) ? c.model_of(l.plc) : nullptr;
     if (model != nullptr && model != &plc::fp7)
         c.complain(item(list, i, "plc"), "names \"" + l.plc + "\", a " + std::string(model->name) +
                                              ": only an FP7 has link relays and link registers");
-    if (!c.is_sound(item(list, i)))
-        return;
     for (std::size_t before = 0; before < i; ++before)
         if (c.config.plc_links[before].name == l.name && c.config.plc_links[before].plc == l.plc) {
             c.complain(item(list, i, "plc"), "names \"" + l.plc + "\", which is a station of this link already");
