@@ -45,6 +45,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_programs(from.folder);
     make_servers();
     make_blocks();
+    make_plc_links();
 }
 
 void gateway::make_plcs(const std::string& folder)
@@ -148,6 +149,15 @@ void gateway::make_blocks()
     }
 }
 
+void gateway::make_plc_links()
+{
+    if (config_.plc_links.empty())
+        return;
+    links_ = std::make_unique<plc_links>(loop_, config_, started_, [this] { settle_memory(); });
+    for (const plc_link_config& each : config_.plc_links)
+        links_->add(each, *find_plc(each.plc));
+}
+
 bool gateway::start()
 {
     if (!listen())
@@ -161,6 +171,8 @@ bool gateway::start()
         asio::co_spawn(loop_, line->run(), asio::detached);
     for (const auto& program : programs_)
         asio::co_spawn(loop_, program->run(), asio::detached);
+    if (links_)
+        links_->start();
     asio::co_spawn(loop_, every_second(), asio::detached);
     if (const auto period = service::watchdog_period())
         asio::co_spawn(loop_, keep_watchdog(*period), asio::detached);
@@ -245,10 +257,14 @@ void gateway::settle_memory()
                     line->wake();
             for (running_block& block : blocks_)
                 block.changed = block.changed || touches(block.content, *plc, changed);
+            if (links_)
+                links_->memory_changed(*plc, changed);
         }
     }
     if (!changed_any)
         return;
+    if (links_)
+        links_->send();
     for (const auto& program : programs_)
         program->look();
     publish_blocks();

@@ -6,6 +6,7 @@
 #include "daemon/control_server.hpp"
 #include "daemon/dds_link.hpp"
 #include "daemon/message_line.hpp"
+#include "daemon/plc_links.hpp"
 #include "daemon/plc_program.hpp"
 #include "daemon/running_line.hpp"
 #include "daemon/server_line.hpp"
@@ -37,6 +38,7 @@ private:
     void make_programs(const std::string& folder);
     void make_servers();
     void make_blocks();
+    void make_plc_links();
     plc::simulated_plc* find_plc(const std::string& name);
     running_line* find_line(const std::string& name);
     unit_target target_of(const unit_config& unit);
@@ -68,6 +70,7 @@ private:
     std::vector<std::unique_ptr<plc_program>> programs_;
     std::vector<std::unique_ptr<tcp_server>> servers_;
     std::vector<running_block> blocks_;
+    std::unique_ptr<plc_links> links_;  // of PLCs; null without any
     dds_link dds_;
     std::optional<control_server> control_;
     asio::steady_timer second_;

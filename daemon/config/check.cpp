@@ -31,6 +31,7 @@ void check(const gateway_config& c, const located_json& file, const std::string&
     check_routes(context, devices, occupied);
     check_messages(context, devices, occupied);
     check_servers(context);
+    check_plc_links(context);
     check_dds(context);
 }
 

@@ -5,6 +5,7 @@
 #include "bridge/routes/route.hpp"
 #include "daemon/config/message_config.hpp"
 #include "daemon/config/mewtocol_config.hpp"
+#include "daemon/config/plc_link_config.hpp"
 #include "protocols/serial_timing.hpp"
 
 #include <chrono>
@@ -156,6 +157,7 @@ struct gateway_config {
     std::vector<station_config> stations;
     std::vector<route_config> routes;
     std::vector<tcp_server_config> modbus_tcp;
+    std::vector<plc_link_config> plc_links;
     dds_config dds;
     log_config log;
     control_config control;

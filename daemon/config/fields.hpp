@@ -48,6 +48,26 @@ void describe(Visitor& v, plc_config& c)
 }
 
 template <class Visitor>
+void describe(Visitor& v, plc_link_config& c)
+{
+    plc_link_settings& s = c.as.settings;
+    v.required("name", c.name, "Name of the PLC link, the same in all its stations", name_rule);
+    v.required("plc", c.plc, "Name of the simulated PLC that takes part, an FP7", name_rule);
+    v.required("station", c.as.station, "Its number, which no other station of the link has", range{1, 16});
+    v.optional("block", s.block, "0: WL0-WL63 and LD0-LD127; 1: WL64-WL127 and LD128-LD255", range{0, 1});
+    v.optional("max_station", s.max_station, "Highest number of the link, the same in all stations; 0 and 1 = 16",
+               range{0, 16});
+    v.optional("relay_words", s.relay_words, "Words of link relays in the block that the link uses", range{0, 64});
+    v.optional("register_words", s.register_words, "Link registers in the block that the link uses", range{0, 128});
+    v.optional("relay_first", s.relay_first, "First word of link relays that this station sends, from 0 in the block",
+               range{0, 63});
+    v.optional("relay_count", s.relay_count, "Words of link relays that it sends", range{0, 64});
+    v.optional("register_first", s.register_first, "First link register that it sends, from 0 in the block",
+               range{0, 127});
+    v.optional("register_count", s.register_count, "Link registers that it sends", range{0, 127});
+}
+
+template <class Visitor>
 void describe(Visitor& v, rs485_config& c)
 {
     v.optional("enabled", c.enabled, "Let the driver switch the direction (TIOCSRS485)");
@@ -208,6 +228,7 @@ void describe(Visitor& v, gateway_config& c)
     v.optional("stations", c.stations, "Devices on the lines");
     v.optional("routes", c.routes, "Routing table: registers of stations to devices of PLCs");
     v.optional("modbus_tcp", c.modbus_tcp, "MODBUS TCP servers");
+    v.optional("plc_links", c.plc_links, "PLC links: link relays and registers that FP7s of several gateways share");
     v.optional("dds", c.dds, "DDS");
     v.optional("log", c.log, "Logging");
     v.optional("control", c.control, "Commands for the running gateway");

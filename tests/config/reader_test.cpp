@@ -155,8 +155,8 @@ TEST_CASE("reader: unknown keys")
          "19 /lines/0/rs485/auto is no known key: known are enabled, rts_on_send, rts_after_send, rx_during_tx, "
          "delay_before_send_ms, delay_after_send_ms"},
         {R"("log": {)", R"("zzz": 0, "log": {)",
-         "79 /zzz is no known key: known are $schema, gateway, plcs, lines, stations, routes, modbus_tcp, dds, log, "
-         "control"},
+         "79 /zzz is no known key: known are $schema, gateway, plcs, lines, stations, routes, modbus_tcp, plc_links, "
+         "dds, log, control"},
         // The value of an unknown key is not looked into.
         {R"("level": "debug")", R"("level": "debug", "colour": { "baudrate": [ {} ] })",
          "79 /log/colour is no known key: known are level"},

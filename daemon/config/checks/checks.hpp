@@ -13,6 +13,7 @@ void check_plcs(check_context& c);
 void check_lines(check_context& c);
 void check_stations(check_context& c);
 void check_servers(check_context& c);
+void check_plc_links(check_context& c);
 void check_dds(check_context& c);
 
 // Unit ids of a server and where they lead. list: "/modbus_tcp/0/units".

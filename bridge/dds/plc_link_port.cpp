@@ -1,0 +1,196 @@
+#include "bridge/dds/plc_link_port.hpp"
+
+#include "bridge/dds/bounded_string.hpp"
+#include "bridge/dds/domain.hpp"
+#include "bridge/dds/log_capture.hpp"
+#include "plc_link.h"
+
+#include <dds/dds.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+namespace plcgw {
+namespace {
+
+constexpr auto topic_name = "plcgw/v1/PlcLinkArea";
+constexpr std::size_t most_news = 1000;  // a writer of made-up names must not keep the loop busy
+
+// Runs on Cyclone's threads with its locks held: one write and nothing else.
+void wake(int descriptor)
+{
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
+}
+
+void on_data(dds_entity_t, void* descriptor) { wake(*static_cast<int*>(descriptor)); }
+
+qos_ptr writer_qos(duration lease)
+{
+    qos_ptr qos = state_qos();
+    const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;  // as publisher.cpp
+    dds_qset_data_representation(qos.get(), 1, &xcdr1);
+    dds_qset_writer_data_lifecycle(qos.get(), false);
+    // By topic: each writing asserts it, and a gateway that hangs does not write.
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_USECS(lease.count()));
+    return qos;
+}
+
+std::string text(std::span<const char> in) { return std::string(read_string(in)); }
+
+template <class Sequence>
+void lend(Sequence& to, const std::vector<std::uint16_t>& words)
+{
+    to._length = to._maximum = static_cast<std::uint32_t>(words.size());
+    to._buffer = const_cast<std::uint16_t*>(words.data());  // dds_write only reads it
+}
+
+template <class Sequence>
+std::vector<std::uint16_t> copy(const Sequence& from)
+{
+    return std::vector<std::uint16_t>(from._buffer, from._buffer + from._length);
+}
+
+plc_link_area received(const plcgw_v1_PlcLinkArea& in)
+{
+    plc_link_area out;
+    out.link = text(in.link);
+    out.sender = {text(in.gateway), text(in.member), wall_time{in.started_ns}};
+    out.sequence = in.seq;
+    out.source = wall_time{in.source_ns};
+    out.relays = copy(in.relays);
+    out.registers = copy(in.registers);
+    out.station.station = in.station;
+    out.station.settings = {.block = in.block,
+                            .max_station = in.max_station,
+                            .relay_words = in.relay_words,
+                            .register_words = in.register_words,
+                            .relay_first = in.relay_first,
+                            .relay_count = in.relays._length,
+                            .register_first = in.register_first,
+                            .register_count = in.registers._length};
+    return out;
+}
+
+// One loan of Cyclone; false when the reader is empty.
+bool take_some(dds_entity_t reader, std::vector<plc_link_news>& news)
+{
+    constexpr std::size_t most = 64;
+    std::array<void*, most> samples{};
+    std::array<dds_sample_info_t, most> infos;
+    const dds_return_t taken = dds_take(reader, samples.data(), infos.data(), most, most);
+    if (taken <= 0)
+        return false;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(taken); ++i) {
+        const auto& in = *static_cast<const plcgw_v1_PlcLinkArea*>(samples[i]);
+        if (infos[i].valid_data)
+            news.push_back(received(in));
+        // The last words and the end of their writer can come as one sample.
+        if (infos[i].instance_state != DDS_ALIVE_INSTANCE_STATE && infos[i].sample_rank == 0)
+            news.push_back(plc_link_gone{text(in.link), text(in.gateway), text(in.member), in.station});
+    }
+    dds_return_loan(reader, samples.data(), taken);
+    return true;
+}
+
+}  // namespace
+
+struct plc_link_port::state {
+    int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    std::unique_ptr<dds_participant> participant;
+    dds_entity_t writer{};
+    dds_entity_t reader{};
+    std::uint64_t drops = 0;
+
+    ~state()
+    {
+        participant.reset();  // waits for running listeners, which write to the descriptor
+        if (descriptor >= 0)
+            ::close(descriptor);
+    }
+};
+
+dds_result<plc_link_port> plc_link_port::create(const dds_settings& settings, duration lease)
+{
+    auto made = std::make_unique<state>();
+    if (made->descriptor < 0)
+        return dds_error{std::string("cannot create an eventfd: ") + std::strerror(errno)};
+    auto participant = dds_participant::open(settings);
+    if (!participant)
+        return participant.error();
+    made->participant = std::move(*participant);
+    const dds_entity_t parent = made->participant->entity();
+
+    log_capture log;
+    const qos_ptr partition = partition_qos(settings);
+    const dds_entity_t publisher = dds_create_publisher(parent, partition.get(), nullptr);
+    if (publisher < 0)
+        return creation_error("DDS publisher", publisher, log.text());
+    const dds_entity_t subscriber = dds_create_subscriber(parent, partition.get(), nullptr);
+    if (subscriber < 0)
+        return creation_error("DDS subscriber", subscriber, log.text());
+    const dds_entity_t topic = dds_create_topic(parent, &plcgw_v1_PlcLinkArea_desc, topic_name, nullptr, nullptr);
+    if (topic < 0)
+        return creation_error("DDS topic PlcLinkArea", topic, log.text());
+    const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
+        dds_create_listener(&made->descriptor), dds_delete_listener);
+    dds_lset_data_available(listener.get(), on_data);
+    made->reader = dds_create_reader(subscriber, topic, state_qos().get(), listener.get());
+    if (made->reader < 0)
+        return creation_error("DDS reader of PlcLinkArea", made->reader, log.text());
+    made->writer = dds_create_writer(publisher, topic, writer_qos(lease).get(), nullptr);
+    if (made->writer < 0)
+        return creation_error("DDS writer of PlcLinkArea", made->writer, log.text());
+    return plc_link_port(std::move(made));
+}
+
+plc_link_port::plc_link_port(std::unique_ptr<state> s) : state_(std::move(s)) {}
+plc_link_port::plc_link_port(plc_link_port&&) noexcept = default;
+plc_link_port& plc_link_port::operator=(plc_link_port&&) noexcept = default;
+plc_link_port::~plc_link_port() = default;
+
+void plc_link_port::publish(const plc_link_area& area)
+{
+    const auto byte = [](unsigned value) { return static_cast<std::uint8_t>(value); };
+    const plc_link_settings& s = area.station.settings;
+    plcgw_v1_PlcLinkArea out{};
+    fill_string(out.link, area.link);
+    fill_string(out.gateway, area.sender.gateway);
+    fill_string(out.member, area.sender.member);
+    out.station = byte(area.station.station);
+    out.started_ns = static_cast<std::int64_t>(area.sender.started);
+    out.seq = area.sequence;
+    out.source_ns = static_cast<std::int64_t>(area.source);
+    out.block = byte(s.block);
+    out.max_station = byte(s.max_station);
+    out.relay_words = byte(s.relay_words);
+    out.register_words = byte(s.register_words);
+    out.relay_first = byte(s.relay_first);
+    out.register_first = byte(s.register_first);
+    lend(out.relays, area.relays);
+    lend(out.registers, area.registers);
+    if (dds_write(state_->writer, &out) != DDS_RETCODE_OK)
+        ++state_->drops;
+}
+
+std::uint64_t plc_link_port::drops() const { return state_->drops; }
+
+int plc_link_port::descriptor() const { return state_->descriptor; }
+
+std::vector<plc_link_news> plc_link_port::take()
+{
+    std::uint64_t wakes = 0;
+    [[maybe_unused]] const auto size = ::read(state_->descriptor, &wakes, sizeof wakes);
+
+    std::vector<plc_link_news> news;
+    while (news.size() < most_news)
+        if (!take_some(state_->reader, news))
+            return news;
+    wake(state_->descriptor);
+    return news;
+}
+
+}  // namespace plcgw

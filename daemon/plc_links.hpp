@@ -1,0 +1,46 @@
+// The PLC links of a gateway: words that its PLCs send go out by DDS, those of other stations come into their memory.
+#pragma once
+
+#include "bridge/dds/plc_link_port.hpp"
+#include "bridge/plc_link_exchange.hpp"
+#include "daemon/config/config.hpp"
+#include "daemon/read_before.hpp"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+
+#include <functional>
+
+namespace plcgw {
+
+class plc_links {
+public:
+    // settle: called when words of other stations came into a PLC's memory.
+    plc_links(asio::io_context& loop, const gateway_config& config, wall_time started, std::function<void()> settle);
+
+    void add(const plc_link_config& link, plc::simulated_plc& plc);
+    void start();
+
+    void memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
+    void send();  // what is due now; the rest goes out at its time
+
+private:
+    asio::awaitable<void> keep_time();
+    asio::awaitable<void> listen();
+    bool open();
+    void receive();
+    void log_events();
+    time_point wake_at() const;
+
+    asio::io_context& loop_;
+    dds_settings settings_;
+    plc_link_sender self_;
+    std::function<void()> settle_;
+    std::vector<plc_link_exchange> links_;
+    std::optional<plc_link_port> port_;
+    asio::posix::stream_descriptor wakes_;  // the port has something
+    asio::steady_timer timer_;
+    bool failed_ = false;  // to open, and said so
+};
+
+}  // namespace plcgw
