@@ -47,9 +47,9 @@ TEST_CASE("check: sources of MEWTOCOL routes")
         {R"("device": "D0")",
          "3 /routes/0 lacks \"source\": the first device in its MEWTOCOL station, for example DT100"},
         {R"("device": "D0", "table": "holding", "first": 0)",
-         "3 /routes/0 lacks \"source\": the first device in its MEWTOCOL station, for example DT100\n"
          "3 /routes/0/table belongs to MODBUS, but the station's line speaks MEWTOCOL: give \"source\", for example "
-         "DT100"},
+         "DT100\n"
+         "3 /routes/0 lacks \"source\": the first device in its MEWTOCOL station, for example DT100"},
         {R"("device": "D0", "source": "DT1", "first": 0)",
          "3 /routes/0/first belongs to MODBUS, but the station's line speaks MEWTOCOL: give \"source\", for example "
          "DT100"},

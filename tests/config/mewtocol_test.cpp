@@ -65,13 +65,6 @@ TEST_CASE("check: a COM port of an FP7 stands for one station")
     CHECK(said(served("modbus-rtu", unit(1) + ", " + unit(2), "", "FX3U")) == "");
 }
 
-TEST_CASE("check: this version asks in MODBUS only")
-{
-    CHECK(said(R"({"lines": [{"name": "l", "device": "d",
-"protocol": "mewtocol-com"}]})") ==
-          "2 /lines/0/protocol is one that this version speaks as server only: give \"role\"");
-}
-
 TEST_CASE("check: the dialect of MEWTOCOL7-COM")
 {
     const struct {

@@ -20,7 +20,7 @@ constexpr message_form stx_etx{start_code::stx, end_code::etx, {}, {}};
 constexpr message_form stx_cr_lf{start_code::stx, end_code::cr_lf, {}, {}};
 constexpr message_form stx_quiet{start_code::stx, end_code::silence, 2ms, {}};
 
-const std::string restarted = "! a new start code inside the message";
+const std::string restarted = "! a new frame or message began inside this one";
 const std::string overlong = "! longer than any frame";
 
 // All that comes out of pieces that come 1 ms apart, with a second of silence behind.

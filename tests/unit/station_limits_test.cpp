@@ -117,6 +117,8 @@ TEST_CASE("station: on every model, the ends of each run of the default map are 
             };
             CHECK(b.ask(pdu_of(read, row.first, 1))->at(0) == read);
             CHECK(b.ask(pdu_of(read, last, 1))->at(0) == read);
+            if (last == 0xFFFF)
+                continue;  // nothing is behind it
             const bool goes_on = maps(last + 1);
             CHECK(b.ask(pdu_of(read, last + 1, 1))->at(0) == (goes_on ? read : read | 0x80));
             CHECK((b.ask(pdu_of(read, last, 2)) == exception(read, 2)) == !goes_on);
