@@ -51,6 +51,12 @@ std::unique_ptr<line_connection> make_connection(asio::io_context& loop, const l
 // Of the serial line, also of that behind a device server.
 character_format format_of(const line_config& line);
 modbus::framing framing_of(const line_config& line);
+
+// The silence that ends a damaged frame: longer where a network is between, which may tear frames apart.
+duration silence_of(const line_config& line);
 local_echo echo_of(const line_config& line);
+
+// From now, when so many bytes are sent, to the last byte of their echo at the latest.
+duration echo_time(const line_config& line, std::size_t size);
 
 }  // namespace plcgw

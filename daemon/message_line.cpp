@@ -77,12 +77,12 @@ template <class Receiver>
 void message_line::feed(Receiver& into, bytes received)
 {
     if (config_.device.empty()) {
-        into.feed(now(), echo_.feed(received));
+        into.feed(now(), echo_.feed(now(), received));
         return;
     }
     for (const auto& piece : marks_.feed(received)) {
         if (const auto* characters = std::get_if<buffer>(&piece))
-            into.feed(now(), echo_.feed(*characters));
+            into.feed(now(), echo_.feed(now(), *characters));
         else
             into.fault(now(), std::get<errc>(piece));
     }
@@ -134,7 +134,7 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
         if (const auto* to_send = std::get_if<general_purpose::exchange::send>(&action)) {
             const time_point started = now();
             if (question.answer == expect::nothing)
-                echo_.sent(to_send->message, false);
+                echo_.sent(to_send->message, false, started + std::chrono::hours(1));  // in no doubt
             ec = co_await connection_->write(to_send->message);
             if (asking.attempts() == 0 && !ec)
                 content.sent(question, wall_now());

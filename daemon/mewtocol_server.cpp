@@ -44,7 +44,7 @@ asio::awaitable<error_code> mewtocol_server::serve()
         const auto size = co_await connection_->read(until, asio::buffer(received_));
         const time_point at = now();
         if (size)
-            in_.feed(at, echo_.feed(bytes(received_).first(*size)));
+            in_.feed(at, echo_.feed(at, bytes(received_).first(*size)));
         else if (size.error() != asio::error::timed_out)
             co_return size.error();
         for (;;) {
@@ -82,7 +82,7 @@ asio::awaitable<error_code> mewtocol_server::reply(buffer characters, time_point
         if (resets != resets_)
             co_return error_code{};
     }
-    echo_.sent(characters, is_like_request(characters));
+    echo_.sent(characters, is_like_request(characters), now() + echo_time(config_, characters.size()));
     const error_code ec = co_await connection_->write(characters);
     co_return ec;
 }

@@ -49,7 +49,7 @@ modbus::serial_options timing_of(const line_config& line)
             .retries = line.retries,
             .turnaround = line.turnaround_delay,
             .gap = line.gap,
-            .silence = line.silence,
+            .silence = silence_of(line),
             .echo = echo_of(line),
             .mode = framing_of(line)};
 }

@@ -74,6 +74,7 @@ error_code serial_connection::try_open()
         return ec;
     }
     opened_at_ = now();
+    alive_ = false;
     bit_errors_ = bit_errors_of(*fd).value_or(bit_errors{});
     log::info("line {}: {} is open, {} {}{}{}", line_.name, line_.device, line_.baud_rate, line_.data_bits,
               line_.check == parity::none  ? 'N'
@@ -100,7 +101,7 @@ void serial_connection::close(const error_code& why)
     forget_output(port_.native_handle());
     port_.close(ignored);
     // A half-dead adapter opens and fails at once, again and again: that is a back-off, too, and said once.
-    failed_at_once_ = now() - opened_at_ < short_life;
+    failed_at_once_ = !alive_ && now() - opened_at_ < short_life;
     if (!failed_at_once_ || last_error_ != why)
         log::warning("line {}: {} was lost ({}): it is reopened when it comes back", line_.name, line_.device,
                      why.message());
@@ -123,6 +124,7 @@ asio::awaitable<boost::system::result<std::size_t>> serial_connection::read(time
                                                                             asio::mutable_buffer into)
 {
     const auto size = co_await read_before(deadline, port_, guard_, into);
+    alive_ = alive_ || size.has_value();
     co_return size;
 }
 

@@ -34,6 +34,7 @@ private:
     milliseconds next_pause_;
     boost::system::error_code last_error_;  // and said so
     time_point opened_at_{};
+    bool alive_ = false;  // something was heard since it was opened
     bool failed_at_once_ = false;
     bit_errors bit_errors_;  // as the driver counted them last
 };

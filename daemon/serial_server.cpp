@@ -34,7 +34,7 @@ serial_server::serial_server(asio::io_context& loop, line_config config, std::ve
 
 modbus::bus_framer serial_server::make_framer() const
 {
-    return {framing_of(config_), units_of(stations_), config_.silence};
+    return {framing_of(config_), units_of(stations_), silence_of(config_)};
 }
 
 void serial_server::reset()
@@ -66,7 +66,7 @@ asio::awaitable<error_code> serial_server::serve()
         const time_point until = in_.deadline();
         const auto size = co_await connection_->read(until, asio::buffer(received_));
         if (size)
-            in_.feed(now(), echo_.feed(bytes(received_).first(*size)));
+            in_.feed(now(), echo_.feed(now(), bytes(received_).first(*size)));
         else if (size.error() != asio::error::timed_out)
             co_return size.error();
         for (;;) {
@@ -126,7 +126,7 @@ asio::awaitable<error_code> serial_server::reply(modbus_station& station, buffer
     const bool like_request = modbus::parse_request(pdu).has_value();
     const modbus::frame content{station.unit(), std::move(pdu)};
     const buffer adu = modbus::encode_adu(framing_of(config_), content, station.delimiter());
-    echo_.sent(adu, like_request);
+    echo_.sent(adu, like_request, now() + echo_time(config_, adu.size()));
     const error_code ec = co_await connection_->write(adu);
     if (!ec)
         station.sent();

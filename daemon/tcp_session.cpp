@@ -145,6 +145,7 @@ asio::awaitable<void> tcp_session::ask_station(std::shared_ptr<tcp_session> self
     while (!self->abandoned_ && !queue.waiting.empty()) {
         const forwarded& first = queue.waiting.front();
         std::optional<result<modbus::response>> answer;
+        const time_point asked_at = now();
         queue.under_way = to.first->begin(to.second, first.request);
         if (queue.under_way) {
             auto answered = co_await forward_gate::finish(queue.under_way);
@@ -154,7 +155,9 @@ asio::awaitable<void> tcp_session::ask_station(std::shared_ptr<tcp_session> self
         if (self->abandoned_)
             break;
         buffer pdu = modbus::encode_response(first.request, as_response(answer));
-        self->framing_->append(self->replies_, {first.id, {first.unit, std::move(pdu)}});
+        const bool answers = !pdu.empty();  // nobody answers a broadcast, or the command to listen only
+        if (answers && !self->is_late(asked_at))
+            self->framing_->append(self->replies_, {first.id, {first.unit, std::move(pdu)}});
         queue.waiting.pop_front();
         --self->under_way_;
         self->quiet_since_ = now();
@@ -162,6 +165,14 @@ asio::awaitable<void> tcp_session::ask_station(std::shared_ptr<tcp_session> self
         self->changed_.cancel();
     }
     self->stations_.erase(to);
+}
+
+// The client asks something else meanwhile, and without transaction ids it would take this answer for that of its next
+// question.
+bool tcp_session::is_late(time_point asked_at) const
+{
+    error_code ignored;
+    return framing_->is_serial() && (quiet_since_ > asked_at || socket_.available(ignored) > 0);
 }
 
 asio::awaitable<void> tcp_session::something_changed()

@@ -61,6 +61,7 @@ private:
     static asio::awaitable<void> ask_station(std::shared_ptr<tcp_session> self, station_key to);
     asio::awaitable<void> something_changed();
     bool is_full() const;
+    bool is_late(time_point asked_at) const;
     bool has_hung_up();
 
     void flush();  // one write at a time, of all that is there

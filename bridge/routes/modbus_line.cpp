@@ -100,9 +100,13 @@ std::uint8_t modbus_line::delimiter_of(modbus::unit_id unit, std::uint8_t of_a_s
 void modbus_line::learn_delimiter(const question& q, const modbus::response& answer)
 {
     const auto* const asked = std::get_if<modbus::diagnostics>(&q.request);
-    if (asked != nullptr && asked->what == modbus::diagnostic::change_ascii_delimiter && !asked->data.empty() &&
-        std::holds_alternative<modbus::diagnostics_answered>(answer))
+    if (asked == nullptr || asked->what != modbus::diagnostic::change_ascii_delimiter || asked->data.empty())
+        return;
+    if (std::holds_alternative<modbus::diagnostics_answered>(answer))
         delimiters_[q.unit] = {asked->data[0]};
+    else if (q.unit == modbus::unit_id::broadcast && std::holds_alternative<modbus::no_response>(answer))
+        for (unsigned unit = 0; unit <= 247; ++unit)  // whoever did not hear it is found out by asking
+            delimiters_[modbus::unit_id{static_cast<std::uint8_t>(unit)}] = {asked->data[0]};
 }
 
 void modbus_line::doubt_delimiter(modbus::unit_id unit)

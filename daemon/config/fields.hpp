@@ -59,9 +59,8 @@ void describe(Visitor& v, rs485_config& c)
 }
 
 template <class Visitor>
-void describe(Visitor& v, unit_config& c)
+void describe_target(Visitor& v, unit_config& c)
 {
-    v.required("unit", c.unit, "MODBUS unit id, 0 to 255, or MEWTOCOL station", range{0, 999});
     v.optional("plc", c.plc, "Name of the simulated PLC that answers", text{0, 64});
     v.optional("line", c.line, "Or name of the line to which requests are forwarded", text{0, 64});
     v.optional("line_unit", c.line_unit, "Unit id on that line; 0 = the same", range{0, 255});
@@ -69,6 +68,20 @@ void describe(Visitor& v, unit_config& c)
                "Channel of the PLC that a server line stands for: its special D and M show it. Of an FP7 the number of "
                "the COM port",
                range{0, 3});
+}
+
+template <class Visitor>
+void describe(Visitor& v, unit_config& c)
+{
+    v.required("unit", c.unit, "MODBUS unit id", range{0, 255});
+    describe_target(v, c);
+}
+
+template <class Visitor>
+void describe(Visitor& v, line_unit_config& c)
+{
+    v.required("unit", c.unit, "MODBUS unit id, or MEWTOCOL station", range{0, 999});
+    describe_target(v, c);
 }
 
 template <class Visitor>
@@ -103,7 +116,8 @@ void describe(Visitor& v, line_config& c)
         "gap_us", c.gap,
         "Microseconds of silence before a request; 0 = 3.5 characters, never less. MEWTOCOL server: before a response",
         range{0, 16'382'000});
-    v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged frame", range{1, 1000});
+    v.optional("silence_ms", c.silence, "Milliseconds of silence that end a damaged frame; at least 50 with a host",
+               range{1, 1000});
     v.optional("local_echo", c.echo, "Whether the adapter returns what it sends; auto finds out at the first read",
                local_echoes);
     v.optional("max_outstanding", c.max_outstanding, "Requests under way at a time, modbus-tcp only", range{1, 64});

@@ -182,6 +182,37 @@ TEST_CASE("check: what one request can do")
                "38 /routes/0/station is unit 0, the broadcast: nobody answers, only write routes can use it"});
 }
 
+TEST_CASE("check: a PLC that speaks RTU only meets no ASCII, and serial units are those of a serial line")
+{
+    const struct {
+        const char* rest;  // of a configuration with the FX3S "s", the FX3U "u" and an ASCII line
+        const char* expected;
+    } rows[] = {
+        {R"("modbus_tcp": [{"framing": "ascii", "units": [{"unit": 1, "plc": "s"}]}])",
+         "3 /modbus_tcp/0/units/0/plc is a FX3S, which speaks RTU only, on an ASCII line"},
+        {R"("modbus_tcp": [{"framing": "ascii", "other_units": "s"}])",
+         "3 /modbus_tcp/0/other_units is a FX3S, which speaks RTU only, on an ASCII line"},
+        {R"("modbus_tcp": [{"framing": "ascii", "units": [{"unit": 247, "plc": "u"}]}])", ""},
+        {R"("modbus_tcp": [{"framing": "rtu", "units": [{"unit": 1, "plc": "s"}], "other_units": "s"}])", ""},
+        {R"("modbus_tcp": [{"units": [{"unit": 0, "plc": "s"}, {"unit": 255, "plc": "s"}]}])", ""},
+        {R"("modbus_tcp": [{"framing": "rtu", "units": [{"unit": 0, "plc": "s"}]}])",
+         "3 /modbus_tcp/0/units/0/unit is not within 1 to 247, the unit ids of a serial line"},
+        {R"("modbus_tcp": [{"framing": "ascii", "units": [{"unit": 248, "plc": "u"}]}])",
+         "3 /modbus_tcp/0/units/0/unit is not within 1 to 247, the unit ids of a serial line"},
+        {R"("plcs": [{"name": "g", "model": "FX3G", "channels": [{"channel": 1, "line": "l"}]}])",
+         "3 /plcs/0/channels/0/line is an ASCII line, but a FX3G speaks RTU only"},
+        {R"("plcs": [{"name": "g", "channels": [{"channel": 1, "line": "l"}]}])", ""},
+    };
+    for (const auto& row : rows) {
+        const std::string rest = row.rest;
+        const std::string plcs =
+            rest.starts_with("\"plcs\"") ? "" : R"("plcs": [{"name": "s", "model": "FX3S"}, {"name": "u"}],)";
+        INFO(rest);
+        CHECK(said("{" + plcs + R"("lines": [{"name": "l", "device": "d", "protocol": "modbus-ascii"}],)" + "\n\n" +
+                   rest + "}") == row.expected);
+    }
+}
+
 TEST_CASE("check: lines and PLC models")
 {
     const change_row rows[] = {

@@ -35,6 +35,7 @@ class FaultyDevice(threading.Thread):
         os.symlink(os.ttyname(self.theirs), link)
         self.link = link
         self.offset = 0
+        self.stood_still = 0   # seconds at most by which the machine was late
         self.misbehave = None  # makes of the good answer a list of (seconds, bytes) that are sent instead
         self.babble = None     # bytes that are sent all the time
         self.asked = 0         # requests so far
@@ -45,7 +46,10 @@ class FaultyDevice(threading.Thread):
 
     def run(self):
         while not self.ended:
-            if select.select([self.ours], [], [], self.patience())[0]:
+            patience, began = self.patience(), time.monotonic()
+            heard = select.select([self.ours], [], [], patience)[0]
+            self.stood_still = max(self.stood_still, time.monotonic() - began - patience)
+            if heard:
                 self.hear(os.read(self.ours, 4096))
             while self.outgoing and self.outgoing[0][0] <= time.monotonic():
                 self.say(heapq.heappop(self.outgoing)[2])

@@ -5,7 +5,8 @@ import struct
 import threading
 import time
 
-from support import PATIENCE, InteropTest, Refused, main, route, serial_line, station
+from faulty_device import framed
+from support import PATIENCE, InteropTest, Refused, main, route, serial_line, station, wait_for
 
 
 def read_holding(unit, first):
@@ -14,6 +15,10 @@ def read_holding(unit, first):
 
 def write_register(unit, at, value):
     return unit, struct.pack(">BHH", 6, at, value)
+
+
+def rtu(unit, pdu):
+    return framed(bytes([unit]) + pdu)
 
 
 class Pipeline:
@@ -110,6 +115,22 @@ class ForwardingTest(InteropTest):
         self.refused(0x0A, self.gateway.client(15).holding, 0)  # leads nowhere
         self.assertEqual(self.gateway.client(11).holding(50), [1])
         self.expect_good_all_along()
+
+    def test_nobody_answers_a_broadcast(self):
+        self.start(other_units="line")
+        pipeline = Pipeline(self, self.gateway.port)
+        pipeline.ask(write_register(0, 60, 0xBEEF))
+        wait_for("both devices have it", lambda: [d.door.holding(60) for d in self.devices] == [[0xBEEF]] * 2)
+        pipeline.ask(read_holding(11, 60))
+        self.assertEqual(pipeline.answers(1), [(1, bytes.fromhex("0302BEEF"))])
+
+    def test_late_answer_is_not_taken_for_the_next_one_by_a_client_of_rtu_over_tcp(self):
+        self.start(framing="rtu")
+        with socket.create_connection(("127.0.0.1", self.gateway.port), timeout=PATIENCE) as client:
+            client.sendall(rtu(*read_holding(13, 0)))  # nobody
+            time.sleep(0.1)
+            client.sendall(rtu(*read_holding(11, 50)))
+            self.assertEqual(client.recv(64), rtu(11, bytes.fromhex("03020001")))
 
     def test_other_units(self):
         self.start(other_units="line")

@@ -14,7 +14,19 @@ TIMEOUT = 0.3  # seconds
 
 
 class LateAnswersTest(FaultyDeviceTest):
-    def own_values_stay(self, misbehave, retries, seconds=3):
+    def own_values_stay(self, misbehave, retries):
+        """Repeated when the machine stood still: then a device was later than any that is tried here."""
+        for turn in range(6):
+            try:
+                return self.try_own_values(misbehave, retries)
+            except AssertionError:
+                if self.device.stood_still < 0.05 or turn == 5:
+                    raise
+                print(f"the machine stood still for {self.device.stood_still:.2f} s: once more", flush=True)
+                self.doCleanups()
+                self.setUp()
+
+    def try_own_values(self, misbehave, retries, seconds=3):
         self.start(response_timeout_ms=int(TIMEOUT * 1000), retries=retries)
         asked = self.device.asked
         self.device.misbehave = misbehave

@@ -195,6 +195,13 @@ class SerialServerTest(InteropTest):
         self.expect(5, "03 0064 0001", "03 02 1234")
         self.assertEqual(self.raw.number(5, 0x0F), 4)  # without response
 
+    def test_the_same_again_and_again_is_no_echo(self):
+        self.start_raw()
+        for words in ("06 0064 0001", "08 0000 1234"):  # their responses are their requests
+            for _ in range(7):
+                self.expect(5, words, words)
+                time.sleep(0.25)
+
     def test_other_units_and_damaged_frames(self):
         self.start_raw()
         good = framed(data("05 06 0064 0001"))

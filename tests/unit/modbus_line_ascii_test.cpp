@@ -33,6 +33,21 @@ TEST_CASE("modbus line: a station that was told its delimiter is spoken to with 
     CHECK(f.ask(reading, modbus::unit_id{6}).timing.delimiter == '\n');
 }
 
+TEST_CASE(
+    "modbus line: a delimiter that was told to all is used for all, and a station that did not hear it is found out")
+{
+    told_pump f;
+    const auto q =
+        f.ask(modbus::diagnostics{modbus::diagnostic::change_ascii_delimiter, {'#', 0}}, modbus::unit_id::broadcast);
+    f.answer(q, modbus::no_response{});
+    CHECK(f.ask(reading).timing.delimiter == '#');
+    CHECK(f.ask(modbus::write_single_coil{}, modbus::unit_id::broadcast).timing.delimiter == '#');
+    const auto other = f.ask(reading, modbus::unit_id{6});
+    CHECK(other.timing.delimiter == '#');
+    f.fail(other);
+    CHECK(f.ask(reading, modbus::unit_id{6}).timing.delimiter == '\n');
+}
+
 TEST_CASE("modbus line: who asks may bring a delimiter, but what the station was told goes before it")
 {
     told_pump f;

@@ -18,6 +18,9 @@ void check_dds(check_context& c);
 // Unit ids of a server and where they lead. list: "/modbus_tcp/0/units".
 void check_units(check_context& c, const std::string& list, const std::vector<unit_config>& units);
 
+// An ASCII line or listener for this PLC, which may have RTU only. at: of the key that brings them together.
+void check_ascii(check_context& c, const std::string& at, const std::string& plc);
+
 // A line on which somebody can be asked.
 void check_client_line(check_context& c, const std::string& name, const std::string& at);
 

@@ -56,6 +56,8 @@ void check_channels(check_context& c, std::size_t i, const plc_config& p, const 
             c.complain(at + "/line", "is a general-purpose line: ADPRW cannot ask there");
         else if (line != nullptr && line->role != line_role::client)
             c.complain(at + "/line", "is a server line: a PLC asks on a client line; on a server line give it a unit");
+        if (line != nullptr && line->protocol == line_protocol::modbus_ascii && !model.ascii)
+            c.complain(at + "/line", "is an ASCII line, but a " + std::string(model.name) + " speaks RTU only");
         const bool exists = std::any_of(model.channels.begin(), model.channels.end(), [&](const plc::channel& each) {
             return each.number == p.channels[n].channel && each.client;
         });

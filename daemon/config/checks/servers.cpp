@@ -18,6 +18,20 @@ void check_port(check_context& c, std::size_t i, const tcp_server_config& s)
     }
 }
 
+// As on a serial line: no unit 0, which is the broadcast, and ASCII only for PLCs that have it.
+void check_serial_units(check_context& c, std::size_t i, const tcp_server_config& s)
+{
+    for (std::size_t u = 0; u < s.units.size(); ++u) {
+        const std::string at = item("modbus_tcp", i, "units") + "/" + std::to_string(u);
+        if (s.units[u].unit < 1 || s.units[u].unit > 247)
+            c.complain(at + "/unit", "is not within 1 to 247, the unit ids of a serial line");
+        if (s.framing == server_framing::ascii)
+            check_ascii(c, at + "/plc", s.units[u].plc);
+    }
+    if (s.framing == server_framing::ascii)
+        check_ascii(c, item("modbus_tcp", i, "other_units"), s.other_units);
+}
+
 void check_server(check_context& c, std::size_t i, const tcp_server_config& s)
 {
     if (!ip_address(s.listen))
@@ -30,10 +44,8 @@ void check_server(check_context& c, std::size_t i, const tcp_server_config& s)
     if (s.units.empty() && s.other_units.empty() && c.is_sound(item("modbus_tcp", i)))
         c.complain(item("modbus_tcp", i), "leads to no PLC: give \"units\" or \"other_units\"");
     check_units(c, item("modbus_tcp", i, "units"), s.units);
-    for (std::size_t u = 0; u < s.units.size(); ++u)
-        if (s.units[u].unit > 255)
-            c.complain(item("modbus_tcp", i, "units") + "/" + std::to_string(u) + "/unit",
-                       "is " + std::to_string(s.units[u].unit) + ", expected a whole number from 0 to 255");
+    if (s.framing != server_framing::tcp)
+        check_serial_units(c, i, s);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include "bridge/plc/model.hpp"
 #include "daemon/config/checks/checks.hpp"
 
 namespace plcgw::config {
@@ -17,6 +18,14 @@ void check_units(check_context& c, const std::string& list, const std::vector<un
         if (c.is_sound(at) && !seen.insert(units[u].unit).second)
             c.complain(at + "/unit", "stands twice: a unit id leads to one place");
     }
+}
+
+void check_ascii(check_context& c, const std::string& at, const std::string& plc)
+{
+    const plc_config* const owner = c.plcs.find(plc);
+    const plc::model* const model = owner == nullptr ? nullptr : plc::find_model(owner->model);
+    if (model != nullptr && !model->ascii)
+        c.complain(at, "is a " + std::string(model->name) + ", which speaks RTU only, on an ASCII line");
 }
 
 void check_client_line(check_context& c, const std::string& name, const std::string& at)
