@@ -41,7 +41,7 @@ FULL = {
                             {"name": "tell", "plc": "a", "device": "D220", "count": 10, "trigger": "M1"}],
                   "status": {"plc": "a", "device": "D230", "reset": "M2"}}},
               {"name": "p", "device": "/dev/ttyS3", "protocol": "mewtocol7-com", "role": "server",
-               "units": [{"unit": 300, "plc": "c"}],
+               "units": [{"unit": 300, "plc": "c", "channel": 0, "line": "", "line_unit": 0}],
                "mewtocol": {"commands": "all", "expansion": True, "several_frames": True, "rest_kept_ms": 1000,
                             "max_contacts": 80, "max_words": 16,
                             "dialect": {"item": "D001", "scope": "G0", "address_digits": 8, "count_digits": 5,
