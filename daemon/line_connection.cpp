@@ -35,4 +35,12 @@ local_echo echo_of(const line_config& line)
     return line.rs485.enabled && line.rs485.rx_during_tx ? local_echo::on : line.echo;
 }
 
+// Adapters deliver in packets, networks take their time.
+duration echo_time(const line_config& line, std::size_t size)
+{
+    constexpr duration port_delay = std::chrono::milliseconds(100);
+    constexpr duration network_delay = std::chrono::seconds(1);
+    return character_time(format_of(line), size) + (line.device.empty() ? network_delay : port_delay);
+}
+
 }  // namespace plcgw

@@ -56,4 +56,7 @@ modbus::framing framing_of(const line_config& line);
 duration silence_of(const line_config& line);
 local_echo echo_of(const line_config& line);
 
+// From now, when so many bytes are sent, to the last byte of their echo at the latest.
+duration echo_time(const line_config& line, std::size_t size);
+
 }  // namespace plcgw

@@ -84,8 +84,7 @@ asio::awaitable<error_code> mewtocol_server::reply(buffer characters, time_point
         if (resets != resets_)
             co_return error_code{};
     }
-    const time_point echo_until = now() + character_time(format_of(config_), characters.size()) + echo_delay;
-    echo_.sent(characters, is_like_request(characters), echo_until);
+    echo_.sent(characters, is_like_request(characters), now() + echo_time(config_, characters.size()));
     const error_code ec = co_await connection_->write(characters);
     co_return ec;
 }

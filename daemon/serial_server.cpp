@@ -6,10 +6,6 @@ namespace {
 using boost::system::error_code;
 using modbus::bus_event;
 
-// From the last byte of a reply to that of its echo: adapters deliver in packets, networks take their time.
-constexpr duration port_delay = std::chrono::milliseconds(100);
-constexpr duration network_delay = std::chrono::seconds(1);
-
 std::vector<modbus::unit_id> units_of(const std::vector<modbus_station>& stations)
 {
     std::vector<modbus::unit_id> units;
@@ -130,8 +126,7 @@ asio::awaitable<error_code> serial_server::reply(modbus_station& station, buffer
     const bool like_request = modbus::parse_request(pdu).has_value();
     const modbus::frame content{station.unit(), std::move(pdu)};
     const buffer adu = modbus::encode_adu(framing_of(config_), content, station.delimiter());
-    const duration delay = config_.device.empty() ? network_delay : port_delay;
-    echo_.sent(adu, like_request, now() + character_time(format_of(config_), adu.size()) + delay);
+    echo_.sent(adu, like_request, now() + echo_time(config_, adu.size()));
     const error_code ec = co_await connection_->write(adu);
     if (!ec)
         station.sent();

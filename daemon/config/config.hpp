@@ -51,6 +51,9 @@ struct unit_config {
     unsigned channel = 1;    // of the PLC, on a serial line: whose special devices show the communication
 };
 
+// At a server line: the unit may be a MEWTOCOL station as well.
+struct line_unit_config : unit_config {};
+
 enum class line_protocol : std::uint8_t {
     modbus_rtu,
     modbus_ascii,
@@ -74,7 +77,7 @@ struct line_config {
     unsigned port = 502;
     line_protocol protocol = line_protocol::modbus_rtu;
     line_role role = line_role::client;
-    std::vector<unit_config> units;  // of a server line
+    std::vector<line_unit_config> units;  // of a server line
     unsigned baud_rate = 19200;
     unsigned data_bits = 8;
     parity check = parity::even;

@@ -79,9 +79,8 @@ void describe(Visitor& v, rs485_config& c)
 }
 
 template <class Visitor>
-void describe(Visitor& v, unit_config& c)
+void describe_target(Visitor& v, unit_config& c)
 {
-    v.required("unit", c.unit, "MODBUS unit id, 0 to 255, or MEWTOCOL station", range{0, 999});
     v.optional("plc", c.plc, "Name of the simulated PLC that answers", text{0, 64});
     v.optional("line", c.line, "Or name of the line to which requests are forwarded", text{0, 64});
     v.optional("line_unit", c.line_unit, "Unit id or MEWTOCOL station on that line; 0 = the same", range{0, 999});
@@ -89,6 +88,20 @@ void describe(Visitor& v, unit_config& c)
                "Channel of the PLC that a server line stands for: its special D and M show it. Of an FP7 the number of "
                "the COM port",
                range{0, 3});
+}
+
+template <class Visitor>
+void describe(Visitor& v, unit_config& c)
+{
+    v.required("unit", c.unit, "MODBUS unit id", range{0, 255});
+    describe_target(v, c);
+}
+
+template <class Visitor>
+void describe(Visitor& v, line_unit_config& c)
+{
+    v.required("unit", c.unit, "MODBUS unit id, or MEWTOCOL station", range{0, 999});
+    describe_target(v, c);
 }
 
 template <class Visitor>

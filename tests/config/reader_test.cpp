@@ -172,7 +172,7 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
         {R"("device": "/dev/ttyUSB1")", R"("retries": 1)",
          "21 /lines/1 lacks \"device\": the path of a serial port, or \"host\": a device server's address"},
         {R"({ "unit": 2, "plc": "spare" })", R"({ "plc": "spare" })",
-         "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id, 0 to 255, or MEWTOCOL station"},
+         "65 /modbus_tcp/0/units/1 has no \"unit\": MODBUS unit id"},
         {R"({ "plc": "main", "device": "M0" })", "{}",
          "76 /dds/blocks/1 has no \"plc\": Name of the simulated PLC\n76 /dds/blocks/1 has no \"device\": First "
          "device"},

@@ -120,7 +120,9 @@ TEST_CASE("station: on every model, the ends of each run of the default map are 
             if (last == 0xFFFF)
                 continue;  // nothing is behind it
             const bool goes_on = maps(last + 1);
-            CHECK(b.ask(pdu_of(read, last + 1, 1))->at(0) == (goes_on ? read : read | 0x80));
+            const bool is_last_number = last == 65'535;  // nothing can be asked behind it
+            if (!is_last_number)
+                CHECK(b.ask(pdu_of(read, last + 1, 1))->at(0) == (goes_on ? read : read | 0x80));
             CHECK((b.ask(pdu_of(read, last, 2)) == exception(read, 2)) == !goes_on);
             if (row.first > 0)
                 CHECK((b.ask(pdu_of(read, row.first - 1, 2)) == exception(read, 2)) == !maps(row.first - 1));
@@ -132,7 +134,8 @@ TEST_CASE("station: on every model, the ends of each run of the default map are 
             buffer across = write_of(bits ? 0x0F : 0x10, last, 2);
             std::fill(across.begin() + 6, across.end(), bits ? 0x03 : 0xFF);
             CHECK(b.ask(across) == exception(across[0], 2));
-            CHECK(b.ask(pdu_of(bits ? 0x05 : 0x06, last + 1, 0)) == exception(bits ? 0x05 : 0x06, 2));
+            if (!is_last_number)
+                CHECK(b.ask(pdu_of(bits ? 0x05 : 0x06, last + 1, 0)) == exception(bits ? 0x05 : 0x06, 2));
             const auto end = b.plc.map().find(b.plc.memory(), row.table, address{static_cast<std::uint16_t>(last)}, 1);
             CHECK_FALSE(b.plc.memory().bit(end->front().at));  // not even the one that exists
         }

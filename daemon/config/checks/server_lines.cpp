@@ -62,7 +62,7 @@ void check_server_line(check_context& c, com_port_users& com_ports, std::size_t 
         c.complain(item("lines", i, "role"), "is server, but a MODBUS TCP server stands under \"modbus_tcp\"");
     if (l.units.empty() && c.is_sound(item("lines", i)))
         c.complain(item("lines", i), "serves nobody: give \"units\"");
-    check_units(c, item("lines", i, "units"), l.units);
+    check_units(c, item("lines", i, "units"), {l.units.begin(), l.units.end()});
     for (std::size_t u = 0; u < l.units.size(); ++u) {
         const std::string at = item("lines", i, "units") + "/" + std::to_string(u);
         if (!l.units[u].line.empty())

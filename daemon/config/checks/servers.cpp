@@ -46,10 +46,6 @@ void check_server(check_context& c, std::size_t i, const tcp_server_config& s)
     check_units(c, item("modbus_tcp", i, "units"), s.units);
     if (s.framing != server_framing::tcp)
         check_serial_units(c, i, s);
-    for (std::size_t u = 0; u < s.units.size(); ++u)
-        if (s.units[u].unit > 255)
-            c.complain(item("modbus_tcp", i, "units") + "/" + std::to_string(u) + "/unit",
-                       "is " + std::to_string(s.units[u].unit) + ", but MODBUS unit ids end at 255");
 }
 
 }  // namespace
