@@ -3,8 +3,6 @@
 namespace plcgw {
 namespace {
 
-constexpr duration echo_delay = std::chrono::seconds(1);  // of an adapter or a network
-
 using boost::system::error_code;
 
 // No silence between the characters of a frame is defined: this ends one whose CR was lost.

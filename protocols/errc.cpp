@@ -25,7 +25,7 @@ public:
         case errc::bad_parity: return "parity error";
         case errc::bad_stop_bit: return "framing error";
         case errc::overrun: return "characters lost, the port was read too late";
-        case errc::restarted: return "a new start code inside the message";
+        case errc::restarted: return "a new frame or message began inside this one";
         case errc::not_expressible: return "not expressible in this protocol";
         case errc::bad_count: return "number of bytes cannot be sent";
         }

@@ -16,7 +16,7 @@ TEST_CASE("check: a value that cannot be read has no consequences")
          "29 /stations/1 has no \"unit\": MODBUS unit id to 247, MEWTOCOL station to 99, MEWTOCOL7 to 999; 0 = all of "
          "them, for write routes only"},
         {R"("unit": 2, "plc": "spare")", R"("unit": 256, "plc": "spare")",
-         "65 /modbus_tcp/0/units/1/unit is 256, but MODBUS unit ids end at 255"},
+         "65 /modbus_tcp/0/units/1/unit is 256, expected a whole number from 0 to 255"},
         // The default direction is read, which a broadcast cannot.
         {R"("direction": "write")", R"("direction": "out")",
          R"(51 /routes/1/direction is "out", expected one of: read, write)"},
