@@ -9,8 +9,9 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 config=$root/etc/demo.json
 gateway=$root/build/release/daemon/plc-gateway
 field_line=$root/build/release/tests/field/field-line
+field_fp7=$root/build/release/tests/field/field-fp7
 field_scale=$root/build/release/tests/field/field-scale
-demo_dir=/tmp/plc-gateway-demo  # a fixed path, because etc/demo.json names the serial line in it
+demo_dir=/tmp/plc-gateway-demo  # a fixed path, because etc/demo.json names the serial lines in it
 log=$demo_dir/gateway.log
 children=()                     # process ids; negative for a whole group, as kill takes them
 
@@ -112,12 +113,16 @@ answering_or_gone() {
     done
 }
 
+field_is_there() { [[ -e $demo_dir/line1 && -e $demo_dir/fp7 && -e $demo_dir/scale ]]; }
+
 start_demo() {
     start "$field_line" --link "$demo_dir/line1" --device 1:pump --device 2:meter --device 3:tank >"$demo_dir/field.log" 2>&1
     field_pid=$!
+    start "$field_fp7" --link "$demo_dir/fp7" >>"$demo_dir/field.log" 2>&1
+    fp7_pid=$!
     start "$field_scale" --link "$demo_dir/scale" >>"$demo_dir/field.log" 2>&1
     scale_pid=$!
-    wait_until 50 test -e "$demo_dir/line1" -a -e "$demo_dir/scale" || fail "the simulated field devices did not start:" "$(<"$demo_dir/field.log")"
+    wait_until 50 field_is_there || fail "the simulated field devices did not start:" "$(<"$demo_dir/field.log")"
     start "$gateway" run --config "$config" >"$log" 2>&1
     gateway_pid=$!
     wait_until 100 answering_or_gone || echo "run.sh: the gateway does not listen yet, see $log" >&2
@@ -137,20 +142,25 @@ explain_end() {
 }
 
 hints() {
-    local watch check
+    local port watch check
+    port=$(ports | head -n 1)
     printf -v watch '%q watch --config %q' "$gateway" "$config"
     printf -v check '%q check %q' "$gateway" "$config"
     cat <<END
 
-plc-gateway is running: it polls three simulated devices on the serial line $demo_dir/line1, hears a scale,
-and answers MODBUS TCP on 127.0.0.1:$(ports | paste -sd,) (unit 1) and DDS on loopback. Its log: $log
+plc-gateway is running: it polls three simulated devices on the serial line $demo_dir/line1 by MODBUS RTU
+and a simulated FP7 on $demo_dir/fp7 by MEWTOCOL-COM, hears a scale, and answers MODBUS TCP on 127.0.0.1:$(ports | paste -sd,) (unit 1) and DDS on loopback. Its log: $log
 
-Three things to try, from another terminal:
-  1. Read its registers by MODBUS TCP: pump 101-103, meter 111-118, tank 121, scale 131-132 (Debian package mbpoll):
-       mbpoll -m tcp -p $(ports | head -n 1) -a 1 -t 4 -r 101 -c 32 127.0.0.1
-  2. Watch them by DDS:
+Four things to try, from another terminal:
+  1. Read its registers by MODBUS TCP (Debian package mbpoll):
+     pump 101-103, meter 111-118, tank 121, scale 131-133, the FP7's press 151-156
+       mbpoll -m tcp -p $port -a 1 -t 4 -r 101 -c 56 127.0.0.1
+  2. Let the press make 45 strokes a minute, then let it stand:
+       mbpoll -m tcp -p $port -a 1 -t 4 -r 12 127.0.0.1 45
+       mbpoll -m tcp -p $port -a 1 -t 4 -r 12 127.0.0.1 0
+  3. Watch them by DDS:
        $watch
-  3. Edit what it does in $config,
+  4. Edit what it does in $config,
      let it look for mistakes, and start ./run.sh again:
        $check
 
@@ -167,7 +177,7 @@ run() {
     fi
     while true; do
         status=0
-        wait -n -p ended "$gateway_pid" "$field_pid" "$scale_pid" $watch_pid || status=$?
+        wait -n -p ended "$gateway_pid" "$field_pid" "$fp7_pid" "$scale_pid" $watch_pid || status=$?
         [[ $ended == "$watch_pid" ]] || explain_end "$ended" "$status"
         echo "run.sh: the live view ended with status $status; the gateway still runs." >&2
         watch_pid=

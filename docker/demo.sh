@@ -17,9 +17,10 @@ trap end EXIT
 trap 'exit 0' INT TERM
 
 /usr/libexec/plc-gateway/field-line --link "$dir/line1" --device 1:pump --device 2:meter --device 3:tank &
+/usr/libexec/plc-gateway/field-fp7 --link "$dir/fp7" &
 /usr/libexec/plc-gateway/field-scale --link "$dir/scale" &
 for _ in {1..50}; do
-    [[ ! -e $dir/line1 || ! -e $dir/scale ]] || break
+    [[ ! -e $dir/line1 || ! -e $dir/fp7 || ! -e $dir/scale ]] || break
     sleep 0.1
 done
 plc-gateway run --config /usr/share/doc/plc-gateway/examples/demo.json &

@@ -30,11 +30,17 @@ comes_up() {
     printed 'Ctrl-C ends everything' || { cat "$output"; return 1; }
 }
 
-# Those of the pump's temperature, the meter's volts, the tank's level and the scale's state are never 0.
+# Those of the pump's temperature, the meter's volts, the tank's level, the scale's state, the press's strokes (high word)
+# and its oil are never 0.
 reads_registers() {
-    mbpoll -m tcp -p 1502 -a 1 -t 4 -r 101 -c 33 -1 127.0.0.1 >"$work/mbpoll" || { cat "$work/mbpoll"; return 1; }
-    [[ $(grep -cE '^\[(103|111|121|133)\]:[[:space:]]+[1-9]' "$work/mbpoll") -eq 4 ]]
+    mbpoll -m tcp -p 1502 -a 1 -t 4 -r 101 -c 56 -1 127.0.0.1 >"$work/mbpoll" || { cat "$work/mbpoll"; return 1; }
+    [[ $(grep -cE '^\[(103|111|121|133|152|156)\]:[[:space:]]+[1-9]' "$work/mbpoll") -eq 6 ]]
 }
+
+# writes TABLE REFERENCE VALUE: mbpoll's.
+writes() { mbpoll -m tcp -p 1502 -a 1 -t "$1" -r "$2" 127.0.0.1 "$3" >"$work/mbpoll" || { cat "$work/mbpoll"; return 1; }; }
+press_state() { mbpoll -m tcp -p 1502 -a 1 -t 0 -r 21 -c 3 -1 127.0.0.1 | sed -nE 's/^\[[0-9]+\]:[[:space:]]+//p' | paste -sd,; }
+press_is() { [[ $(press_state) == "$1" ]]; }
 
 watches() {
     "$gateway" watch --config "$source_dir/etc/demo.json" --count 20 --timeout 20 >"$work/watch" || return 1
@@ -77,7 +83,14 @@ leaves_nothing() {
 # --- without a terminal ---
 start "$source_dir/run.sh"
 check "it comes up" comes_up
-check "mbpoll reads what the three devices and the scale measure" within 10 reads_registers
+check "mbpoll reads what the three devices, the FP7 and the scale measure" within 10 reads_registers
+check "the press of the FP7 runs" within 5 press_is 1,0,0
+writes 4 12 61
+check "a setpoint of 61 strokes a minute is its fault" within 5 press_is 0,0,1
+writes 4 12 60
+writes 0 12 1
+writes 0 12 0
+check "it stops above when its start is taken away" within 5 press_is 0,1,0
 check "plc-gateway watch gets samples" watches
 check "a second one says who has the port" second_one_refuses
 check "the first one goes on" reads_registers
@@ -131,7 +144,7 @@ mkdir "$clone"
 tar -C "$source_dir" --exclude=./build --exclude=./.git --exclude=./node_modules -cf - . | tar -C "$clone" -xf -
 start "$clone/run.sh"
 check "it builds and comes up from a path with spaces" comes_up
-check "mbpoll reads what the three devices measure" within 10 reads_registers
+check "mbpoll reads what the devices of all lines measure" within 10 reads_registers
 kill -TERM "$demo"
 check "SIGTERM ends it with status 0" ends_with 0
 check "it leaves nothing" leaves_nothing
