@@ -73,6 +73,9 @@ std::optional<client_line::question> client_line::next(time_point now)
 forward_queue::verdict client_line::verdict_of(const forward_request& r, time_point now)
 {
     const std::size_t station = station_of(r.unit);
+    // A PLC's program, which says how long it waits, finds out for itself who does not answer.
+    if (r.timing && stations_[station].name.empty())
+        return {.not_before = schedule_.quiet_until(station), .failed = {}};
     if (schedule_.is_given_up(station, now))
         return {.not_before = {}, .failed = errc::timed_out};  // at once: the line is for the living
     return {.not_before = schedule_.forward_at(station), .failed = {}};

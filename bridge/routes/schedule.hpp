@@ -52,6 +52,8 @@ public:
 
     // When a forwarded request to this station may go; max() = not before a poll has shown how the station is.
     time_point forward_at(std::size_t station) const;
+    // Until then late answers of the station may come.
+    time_point quiet_until(std::size_t station) const { return stations_[station].not_before; }
     // Nobody would answer it: the station is down, and has not come back as far as is known.
     bool is_given_up(std::size_t station, time_point now) const;
 
