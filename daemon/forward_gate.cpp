@@ -6,23 +6,24 @@ asio::awaitable<std::optional<result<modbus::response>>> forward_gate::ask(stati
                                                                            std::optional<modbus::serial_options> timing,
                                                                            on_fault heard)
 {
-    const handle asked = begin(unit, std::move(request), std::move(timing), std::move(heard));
+    const handle asked = begin(forward_asker::nobody, unit, std::move(request), std::move(timing), std::move(heard));
     if (!asked)
         co_return std::nullopt;
     auto answer = co_await finish(asked);
     co_return std::move(answer);
 }
 
-forward_gate::handle forward_gate::begin(station_number unit, modbus::request request,
+forward_gate::handle forward_gate::begin(forward_asker asker, station_number unit, modbus::request request,
                                          std::optional<modbus::serial_options> timing, on_fault heard)
 {
-    const auto ticket = line_.forward(unit, std::move(request), std::move(timing));
+    const auto ticket = line_.forward(unit, std::move(request), std::move(timing), asker);
     if (!ticket)
         return nullptr;
     const auto entry = std::make_shared<waiting>(executor_, *ticket);
     entry->heard = std::move(heard);
     entry->done.expires_at(std::chrono::steady_clock::time_point::max());
     waiting_.emplace(*ticket, entry);
+    line_.look_at_forwarded(now());
     driver_.wake();
     deliver();
     return entry;
@@ -58,6 +59,12 @@ void forward_gate::deliver()
         found->second->done.cancel();
         waiting_.erase(found);
     }
+}
+
+forward_asker new_asker()
+{
+    static std::uint64_t last = 0;
+    return forward_asker{++last};
 }
 
 modbus::response as_response(const std::optional<result<modbus::response>>& answer)

@@ -34,9 +34,9 @@ public:
     asio::awaitable<std::optional<result<modbus::response>>>
     ask(station_number unit, modbus::request request, std::optional<modbus::serial_options> timing, on_fault heard);
 
-    // The same in parts, for who may have to leave before the answer. Null when too many wait.
-    handle begin(station_number unit, modbus::request request, std::optional<modbus::serial_options> timing = {},
-                 on_fault heard = {});
+    // The same in parts, for who may have to leave before the answer. Null when too many wait. Askers take turns.
+    handle begin(forward_asker asker, station_number unit, modbus::request request,
+                 std::optional<modbus::serial_options> timing = {}, on_fault heard = {});
     static asio::awaitable<result<modbus::response>> finish(handle asked);
     void cancel(const handle& asked);  // finish() ends with asio::error::operation_aborted
 
@@ -48,6 +48,8 @@ private:
     line_driver& driver_;
     std::map<forward_ticket, handle> waiting_;
 };
+
+forward_asker new_asker();  // another each time
 
 // What a gateway tells its client (V1.1b3 chapter 7): the answer, 06 when too many wait, 0A when the port is absent or
 // no such station can be on the line, 0B when nobody answers.

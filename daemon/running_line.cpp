@@ -15,8 +15,17 @@ std::vector<station> stations_of(const gateway_config& all, const line_config& l
     std::vector<station> stations;
     for (const station_config& each : all.stations)
         if (each.line == line.name)
-            stations.push_back({each.name, station_number(each.unit), timing_of(line, each)});
+            stations.push_back({each.name, station_number(each.unit), timing_of(line, each),
+                                line.learn_timeout ? std::optional<duration>(line.least_timeout) : std::nullopt});
     return stations;
+}
+
+line_options options_of(const gateway_config& all, const line_config& line)
+{
+    return {.longest_silence = all.dds.longest_silence,
+            .timing = timing_of(line),
+            .cache_age = line.forward_cache,
+            .parallel = line.protocol == line_protocol::modbus_tcp ? line.max_outstanding : 1};
 }
 
 std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const line_config& line, client_line& routes,
@@ -68,7 +77,7 @@ modbus::serial_options timing_of(const line_config& line, const station_config& 
 
 running_line::running_line(boost::asio::io_context& loop, const gateway_config& all, const line_config& line,
                            const find_plc& plc, std::function<void()> settle)
-    : config(line), routes(line.name, stations_of(all, line), all.dds.longest_silence, timing_of(line)),
+    : config(line), routes(line.name, stations_of(all, line), options_of(all, line)),
       driver(make_driver(loop, line, routes, std::move(settle))), gate(loop.get_executor(), routes, *driver)
 {
     std::size_t station = 0;

@@ -15,7 +15,7 @@ asio::awaitable<error_code> serial_line::exchange(client_line::question question
         co_return ec;
     const unanswered_requests late = take_leave(transaction);
     if (const auto& outcome = transaction.outcome())
-        routes_.answered(question, *outcome, now(), wall_now(), late);
+        routes_.answered(question, *outcome, now(), wall_now(), late, transaction.response_time());
     else
         routes_.failed(question, outcome.error(), now(), late);
     co_return error_code{};

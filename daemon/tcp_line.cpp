@@ -85,6 +85,7 @@ void tcp_line::ask(key who, buffer& out)
 {
     under_way& each = questions_.at(who);
     ++each.attempts;
+    each.sent_at = now();
     const time_point deadline = now() + each.question.timing.response_timeout;
     const buffer adu = open_.ask(who, unit_of(each.question.unit), each.question.request(), deadline);
     out.insert(out.end(), adu.begin(), adu.end());
@@ -118,8 +119,10 @@ bool tcp_line::take_answers(bytes received)
 void tcp_line::finish(const modbus::tcp_questions::outcome& outcome)
 {
     const auto found = questions_.find(outcome.who);
+    const bool first = found->second.attempts == 1;
+    const auto took = first ? std::optional<duration>(now() - found->second.sent_at) : std::nullopt;
     if (outcome.answer)
-        routes_.answered(found->second.question, *outcome.answer, now(), wall_now());
+        routes_.answered(found->second.question, *outcome.answer, now(), wall_now(), {}, took);
     else
         routes_.failed(found->second.question, outcome.answer.error(), now());
     questions_.erase(found);

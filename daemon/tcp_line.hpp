@@ -25,6 +25,7 @@ private:
     struct under_way {
         client_line::question question;
         unsigned attempts = 0;
+        time_point sent_at{};  // the last of them
     };
     using key = modbus::tcp_questions::key;
 

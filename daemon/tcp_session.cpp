@@ -39,7 +39,8 @@ bool tcp_service::may_complain()
 tcp_session::tcp_session(asio::ip::tcp::socket client, std::string peer, std::unique_ptr<tcp_framing> framing,
                          tcp_service& service)
     : socket_(std::move(client)), peer_(std::move(peer)), framing_(std::move(framing)), service_(service),
-      changed_(socket_.get_executor()), watch_(socket_.get_executor()), quiet_since_(now()), part_since_(quiet_since_)
+      as_(new_asker()), changed_(socket_.get_executor()), watch_(socket_.get_executor()), quiet_since_(now()),
+      part_since_(quiet_since_)
 {
 }
 
@@ -146,7 +147,7 @@ asio::awaitable<void> tcp_session::ask_station(std::shared_ptr<tcp_session> self
         const forwarded& first = queue.waiting.front();
         std::optional<result<modbus::response>> answer;
         const time_point asked_at = now();
-        queue.under_way = to.first->begin(to.second, first.request);
+        queue.under_way = to.first->begin(self->as_, to.second, first.request);
         if (queue.under_way) {
             auto answered = co_await forward_gate::finish(queue.under_way);
             answer = std::move(answered);

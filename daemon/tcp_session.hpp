@@ -75,6 +75,7 @@ private:
     std::string peer_;
     std::unique_ptr<tcp_framing> framing_;
     tcp_service& service_;
+    const forward_asker as_;
     std::array<std::uint8_t, 4096> received_{};
     bool is_open_ = true;
     bool good_ = true;  // the stream can be trusted

@@ -11,11 +11,11 @@ constexpr duration refused_write_pause = std::chrono::seconds(1);
 
 }  // namespace
 
-client_line::client_line(std::string name, std::vector<station> stations, duration longest_silence,
-                         const modbus::serial_options& timing)
-    : name_(std::move(name)), stations_(std::move(stations)), schedule_(stations_.size()), timing_(timing),
-      longest_silence_(longest_silence)
+client_line::client_line(std::string name, std::vector<station> stations, const line_options& options)
+    : name_(std::move(name)), options_(options), stations_(std::move(stations)), times_(stations_.size()),
+      schedule_(stations_.size()), forwards_(options.cache_age)
 {
+    schedule_.set_parallel(options.parallel);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         const modbus::serial_options& each = stations_[i].timing;
         schedule_.set_longest_delay(i, std::max(least_longest_delay, (each.retries + 2) * each.response_timeout));
@@ -36,43 +36,58 @@ void client_line::add_route(route r, std::size_t station, duration period)
 }
 
 std::optional<forward_ticket> client_line::forward(station_number unit, modbus::request request,
-                                                   std::optional<modbus::serial_options> timing)
+                                                   std::optional<modbus::serial_options> timing, forward_asker asker)
 {
-    const auto ticket = forwards_.add(unit, std::move(request), std::move(timing));
+    const auto ticket = forwards_.add(asker, unit, std::move(request), std::move(timing));
     if (!port_open_)
         forwards_.answer_all(errc::port_absent);
+    else
+        forwards_came_ = true;
     return ticket;
 }
 
-// Forwarded requests and routes take turns when both want the line.
+void client_line::look_at_forwarded(time_point now)
+{
+    if (!forwards_.empty())
+        forwards_.look(now, [&](const forward_request& each) { return verdict_of(each, now); });
+}
+
 std::optional<client_line::question> client_line::next(time_point now)
 {
+    const auto verdict = [&](const forward_request& each) { return verdict_of(each, now); };
+    forwards_wake_ = forwards_.empty() ? time_point::max() : forwards_.look(now, verdict);
+    forwards_came_ = false;
+    const auto turn = schedule_.next(now, forwards_wake_ <= now);
+    if (!turn)
+        return std::nullopt;
     std::optional<question> chosen;
-    if (!forwarded_last_)
+    if (turn->of == lane::forward)
         chosen = next_forward(now);
-    if (!chosen)
-        chosen = next_poll(now);
-    if (!chosen)
-        chosen = next_forward(now);
-    forwarded_last_ = chosen && std::holds_alternative<forward_ticket>(chosen->origin);
+    else
+        chosen = question_of_turn(*turn, now);
     if (chosen)
         chosen->timing.delimiter = delimiter_of(chosen->unit, chosen->timing.delimiter);
     return chosen;
 }
 
+forward_queue::verdict client_line::verdict_of(const forward_request& r, time_point now)
+{
+    const std::size_t station = station_of(r.unit);
+    // A PLC's program, which says how long it waits, finds out for itself who does not answer.
+    if (r.timing && stations_[station].name.empty())
+        return {.not_before = schedule_.quiet_until(station), .failed = {}};
+    if (schedule_.is_given_up(station, now))
+        return {.not_before = {}, .failed = errc::timed_out};  // at once: the line is for the living
+    return {.not_before = schedule_.forward_at(station), .failed = {}};
+}
+
 std::optional<client_line::question> client_line::next_forward(time_point now)
 {
-    while (!forwards_.empty()) {
-        forward_request first = forwards_.take();
-        const station* const of = find(first.unit);
-        if (of != nullptr && schedule_.state_of(static_cast<std::size_t>(of - stations_.data())) == health::down) {
-            forwards_.answer(first.ticket, make_error_code(errc::timed_out));  // at once: the line is for the living
-            continue;
-        }
-        const modbus::serial_options& timing = first.timing ? *first.timing : of != nullptr ? of->timing : timing_;
-        return question{first.ticket, first.unit, std::move(first.request), timing, now};
-    }
-    return std::nullopt;
+    auto taken = forwards_.take(now, [&](const forward_request& each) { return verdict_of(each, now); });
+    if (!taken)
+        return std::nullopt;
+    const modbus::serial_options timing = taken->timing ? *taken->timing : timing_of(station_of(taken->unit));
+    return question{taken->ticket, taken->unit, std::move(taken->request), timing, now};
 }
 
 std::uint8_t client_line::delimiter_of(station_number unit, std::uint8_t of_a_stranger) const
@@ -105,22 +120,32 @@ void client_line::doubt_delimiter(station_number unit)
         told->second.in_force = !told->second.in_force;
 }
 
-const station* client_line::find(station_number unit) const
+std::size_t client_line::station_of(station_number unit)
 {
     const auto found =
         std::find_if(stations_.begin(), stations_.end(), [unit](const station& each) { return each.unit == unit; });
-    return found == stations_.end() ? nullptr : &*found;
+    if (found != stations_.end())
+        return static_cast<std::size_t>(found - stations_.begin());
+    stations_.push_back({{}, unit, options_.timing});
+    times_.emplace_back();
+    return schedule_.add_station();
 }
 
-std::optional<client_line::question> client_line::next_poll(time_point now)
+modbus::serial_options client_line::timing_of(std::size_t station) const
 {
-    const auto turn = schedule_.next(now);
-    if (!turn)
-        return std::nullopt;
-    const row& chosen = routes_[turn->item];
-    const station& of = stations_[chosen.station];
-    question q{*turn, of.unit, question_of(chosen.content), of.timing, now};
-    if (!turn->with_retries)
+    modbus::serial_options timing = stations_[station].timing;
+    const auto& shortest = stations_[station].shortest_timeout;
+    // Who was silent once gets the whole time: it may just have been slower than ever.
+    if (shortest && schedule_.state_of(station) != health::suspect)
+        timing.response_timeout = times_[station].timeout(*shortest, timing.response_timeout);
+    return timing;
+}
+
+client_line::question client_line::question_of_turn(const schedule::turn& turn, time_point now) const
+{
+    const row& chosen = routes_[turn.item];
+    question q{turn, stations_[chosen.station].unit, question_of(chosen.content), timing_of(chosen.station), now};
+    if (!turn.with_retries)
         q.timing.retries = 0;
     return q;
 }
@@ -134,19 +159,28 @@ bool client_line::attempt_failed(const question& q, const modbus::answer_fault& 
 }
 
 void client_line::answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
-                           unanswered_requests late)
+                           unanswered_requests late, std::optional<duration> response_time)
 {
     learn_delimiter(q, answer);
+    const std::size_t station = station_of(q.unit);
+    const health before = schedule_.state_of(station);
+    if (response_time && late.count == 0)
+        times_[station].add(*response_time);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
-        forwards_.answer(*forwarded, std::get<modbus::response>(answer));
+        schedule_.forwarded(station, schedule::outcome::answered, now - q.asked_at, now, late, {});
+        note_health(station, before, {});
+        forwards_.answer(*forwarded, std::get<modbus::response>(answer), now);
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
     row& of = routes_[turn.item];
-    const health before = schedule_.state_of(of.station);
     schedule_.finished(turn, schedule::outcome::answered, now - q.asked_at, now, late);
-    if (before == health::down)
-        note(line_event::severity::info, label(stations_[of.station]) + " answers again");
+    note_health(station, before, {});
+    note_load(now);
+    if (of.content.way == direction::write)
+        forwards_.forget(q.unit);
+    else if (const auto* const response = std::get_if<modbus::response>(&answer))
+        forwards_.heard(q.unit, q.request(), *response, now);
 
     of.answered = true;
     if (const auto refused = refusal_in(answer)) {
@@ -166,26 +200,32 @@ void client_line::answered(const question& q, const station_answer& answer, time
 void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
 {
     doubt_delimiter(q.unit);
+    const std::size_t station = station_of(q.unit);
+    const health before = schedule_.state_of(station);
+    const bool asked = why != errc::line_not_quiet && why != errc::not_expressible;
+    const auto how = asked ? schedule::outcome::silent : schedule::outcome::not_asked;
+    const std::string reason = reason_of(q.asked, why);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
-        forwards_.answer(*forwarded, why);
+        // What comes late then would answer another question to this station.
+        const duration pause = late.count != 0 ? q.timing.response_timeout : duration{};
+        schedule_.forwarded(station, how, now - q.asked_at, now, late, pause);
+        note_health(station, before, reason);
+        forwards_.answer(*forwarded, why, now);
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
     row& of = routes_[turn.item];
-    const health before = schedule_.state_of(of.station);
-    const bool asked = why != errc::line_not_quiet;
-    schedule_.finished(turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
-                       late);
-    const std::string reason = reason_of(q.asked, why);
+    schedule_.finished(turn, how, now - q.asked_at, now, late);
+    if (of.content.way == direction::write)
+        forwards_.forget(q.unit);
     set_quality(of, quality::comm_error, reason);
-    if (before != health::down && schedule_.state_of(of.station) == health::down)
-        station_down(of.station, reason);
+    note_health(station, before, reason);
 }
 
 void client_line::interrupted(const question& q)
 {
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin))
-        forwards_.answer(*forwarded, make_error_code(errc::port_absent));
+        forwards_.answer(*forwarded, make_error_code(errc::port_absent), q.asked_at);
     else
         schedule_.finished(std::get<schedule::turn>(q.origin), schedule::outcome::not_asked, {}, q.asked_at);
 }
@@ -222,7 +262,7 @@ std::vector<sample> client_line::take_samples(time_point now)
     std::vector<sample> samples;
     for (row& each : routes_) {
         age(each, now);
-        const bool confirmed = each.answered && now - each.said_at >= longest_silence_;
+        const bool confirmed = each.answered && now - each.said_at >= options_.longest_silence;
         if (!each.changed && !confirmed)
             continue;
         each.changed = each.answered = false;
@@ -279,18 +319,49 @@ void client_line::set_quality(row& of, quality state, const std::string& reason)
     r.reason = reason;
 }
 
-void client_line::station_down(std::size_t index, const std::string& reason)
+void client_line::note_health(std::size_t index, health before, const std::string& reason)
 {
-    note(line_event::severity::warning,
-         label(stations_[index]) + " does not answer (" + reason + "): its values are kept, it is probed from now on");
+    const station& of = stations_[index];
+    const health after = schedule_.state_of(index);
+    if (before == health::down && after == health::healthy)
+        note(line_event::severity::info, label(of) + " answers again");
+    if (before == health::down || after != health::down)
+        return;
+    const bool has_routes =
+        std::any_of(routes_.begin(), routes_.end(), [&](const row& r) { return r.station == index; });
+    note(line_event::severity::warning, label(of) + " does not answer (" + reason + "): " +
+                                            (has_routes ? "its values are kept, it is probed from now on"
+                                                        : "requests to it fail at once, until one that is let through "
+                                                          "now and then is answered"));
     for (row& each : routes_)
         if (each.station == index)
             lose(each, reason);
 }
 
+// Told once, and again when it has fitted for a while.
+void client_line::note_load(time_point now)
+{
+    constexpr duration period = std::chrono::seconds(10);
+    constexpr double much = 1.05;
+    if (now - load_looked_at_ < period)
+        return;
+    load_looked_at_ = now;
+    const bool is_over = overloaded_ ? schedule_.stretch() > 1 : schedule_.stretch() > much;
+    if (is_over == std::exchange(overloaded_, is_over))
+        return;
+    const auto percent = [](double of) { return std::to_string(static_cast<int>(of * 100 + 0.5)); };
+    if (is_over)
+        note(line_event::severity::warning, "line " + name_ + " is overloaded: its reads need " +
+                                                percent(schedule_.wanted()) + " % of it, so that all periods are " +
+                                                percent(schedule_.stretch()) + " % of what was asked for");
+    else
+        note(line_event::severity::info, "line " + name_ + " keeps its periods again");
+}
+
 std::string client_line::label(const station& of) const
 {
-    return "line " + name_ + ", station " + of.name + " (unit " + std::to_string(number(of.unit)) + ")";
+    const std::string unit = "unit " + std::to_string(number(of.unit));
+    return "line " + name_ + ", " + (of.name.empty() ? unit : "station " + of.name + " (" + unit + ")");
 }
 
 }  // namespace plcgw

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "bridge/routes/forward_queue.hpp"
+#include "bridge/routes/response_times.hpp"
 #include "bridge/routes/route.hpp"
 #include "bridge/routes/schedule.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace plcgw {
@@ -15,6 +17,15 @@ struct station {
     std::string name;
     station_number unit;
     modbus::serial_options timing;
+    std::optional<duration> shortest_timeout{};  // the response timeout is learned: at least this, at most timing's
+};
+
+// What belongs to the line as a whole.
+struct line_options {
+    duration longest_silence{};       // of a sample: then it is said again
+    modbus::serial_options timing{};  // of requests to units that are no station of this line
+    duration cache_age{};             // forwarded reads are answered with values that are not older; 0: never
+    unsigned parallel = 1;            // questions under way at a time
 };
 
 // For the log: a station or a route that changed its state.
@@ -25,17 +36,18 @@ struct line_event {
 
 class client_line {
 public:
-    // timing: of requests to units that are no station of this line.
-    client_line(std::string name, std::vector<station> stations, duration longest_silence,
-                const modbus::serial_options& timing = {});
+    client_line(std::string name, std::vector<station> stations, const line_options& options);
 
     void add_route(route r, std::size_t station, duration period);
     void start(time_point now) { schedule_.start(now); }
 
-    // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent or the station
-    // is known to be down. Nothing when too many wait.
+    // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent. Nothing when
+    // too many wait, of this asker or of all.
     std::optional<forward_ticket> forward(station_number unit, modbus::request request,
-                                          std::optional<modbus::serial_options> timing = {});
+                                          std::optional<modbus::serial_options> timing = {},
+                                          forward_asker asker = forward_asker::nobody);
+    // Answers those that need no line: the station is down, or its values are known.
+    void look_at_forwarded(time_point now);
     std::vector<forward_answer> take_forwarded() { return forwards_.take_answers(); }
     std::vector<forward_fault> take_forward_faults()
     {
@@ -43,7 +55,11 @@ public:
     }  // to be told before the answers
 
     // The asker has left: its request does not use the line any more, as far as that can be helped.
-    void cancel(forward_ticket ticket) { forwards_.cancel(ticket); }
+    void cancel(forward_ticket ticket)
+    {
+        forwards_.cancel(ticket);
+        forwards_came_ = forwards_came_ && !forwards_.empty();
+    }
 
     struct question {
         std::variant<schedule::turn, forward_ticket> origin;
@@ -56,7 +72,10 @@ public:
     };
 
     std::optional<question> next(time_point now);
-    time_point wake_at(time_point now) const { return forwards_.empty() ? schedule_.wake_at(now) : now; }
+    time_point wake_at(time_point now) const
+    {
+        return forwards_came_ ? now : std::min(schedule_.wake_at(now), std::max(now, forwards_wake_));
+    }
 
     // False when its asker has left: what was sent cannot be called back, but it is not worth a repetition.
     bool is_wanted(const question& q) const
@@ -69,9 +88,10 @@ public:
     // the PLC's program shows retries as they happen.
     bool attempt_failed(const question& q, const modbus::answer_fault& why);
 
-    // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered.
+    // Each question ends in one of these. `wall` is when the answer came, `late` the attempts that were not answered,
+    // `response_time` that of the first attempt.
     void answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
-                  unanswered_requests late = {});
+                  unanswered_requests late = {}, std::optional<duration> response_time = {});
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
     void interrupted(const question& q);  // the port went away: the station is not to blame
 
@@ -105,26 +125,33 @@ private:
     };
 
     void set_quality(row& of, quality state, const std::string& reason);
-    std::optional<question> next_poll(time_point now);
+    question question_of_turn(const schedule::turn& turn, time_point now) const;
     std::optional<question> next_forward(time_point now);
-    const station* find(station_number unit) const;
+    forward_queue::verdict verdict_of(const forward_request& r, time_point now);
+    std::size_t station_of(station_number unit);  // one that has no route is made known
+    modbus::serial_options timing_of(std::size_t station) const;
+    void note_health(std::size_t station, health before, const std::string& reason);
+    void note_load(time_point now);
     std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;
     void learn_delimiter(const question& q, const station_answer& answer);
     void doubt_delimiter(station_number unit);
     void lose(row& of, const std::string& why);
     void age(row& of, time_point now);
-    void station_down(std::size_t index, const std::string& reason);
     void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
     std::string label(const station& of) const;
 
     std::string name_;
-    std::vector<station> stations_;
+    line_options options_;
+    std::vector<station> stations_;  // numbered like the schedule's; behind those of the routes any that was asked
+    std::vector<response_times> times_;
     std::vector<row> routes_;  // numbered like the schedule's items
     schedule schedule_;
     forward_queue forwards_;
-    bool forwarded_last_ = false;
+    bool forwards_came_ = false;  // since they were looked at
+    time_point forwards_wake_ = time_point::max();
     bool port_open_ = false;
-    modbus::serial_options timing_;
+    bool overloaded_ = false;
+    time_point load_looked_at_{};
     // ASCII: stations that were told to end their frames with another character. They forget it when their power fails,
     // so that one that does not answer is asked in both ways by turns.
     struct told_delimiter {
@@ -132,7 +159,6 @@ private:
         bool in_force = true;
     };
     std::map<station_number, told_delimiter> delimiters_;
-    duration longest_silence_;
     std::vector<line_event> events_;
 };
 

@@ -1,14 +1,12 @@
-// Requests that are no routes: of MODBUS TCP clients and of the PLCs' own programs to the stations of a line, in the
-// order in which they came.
+// Requests that are no routes: of MODBUS TCP clients and of the PLCs' own programs to the stations of a line. The
+// askers take turns; reads of several askers that overlap become one.
 #pragma once
 
-#include "bridge/routes/station_question.hpp"
+#include "bridge/routes/forward_reads.hpp"
 #include "protocols/modbus/answer_fault.hpp"
-#include "protocols/modbus/response.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
-#include <deque>
-#include <optional>
+#include <functional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -16,12 +14,14 @@
 namespace plcgw {
 
 enum class forward_ticket : std::uint64_t {};
+enum class forward_asker : std::uint64_t { nobody = 0 };  // a client's connection, or a PLC's program
 
 struct forward_request {
     forward_ticket ticket{};
     station_number unit;
     modbus::request request;                       // also to a MEWTOCOL station: its line translates
     std::optional<modbus::serial_options> timing;  // of the station or the line, if absent
+    bool alone = false;                            // joined with others it was refused
 };
 
 struct forward_answer {
@@ -37,60 +37,68 @@ struct forward_fault {
 
 class forward_queue {
 public:
-    // Nothing when as many wait already: exception 06, server device busy.
-    std::optional<forward_ticket> add(station_number unit, modbus::request request,
-                                      std::optional<modbus::serial_options> timing)
-    {
-        constexpr std::size_t longest = 64;
-        if (waiting_.size() >= longest)
-            return std::nullopt;
-        const forward_ticket ticket{++last_};
-        waiting_.push_back({ticket, unit, std::move(request), std::move(timing)});
-        return ticket;
-    }
+    explicit forward_queue(duration cache_age = {}) : cache_(cache_age) {}
 
-    bool empty() const { return waiting_.empty(); }
+    // Nothing when as many wait already, of this asker or of all: exception 06, server device busy.
+    std::optional<forward_ticket> add(forward_asker asker, station_number unit, modbus::request request,
+                                      std::optional<modbus::serial_options> timing);
 
-    forward_request take()
-    {
-        forward_request first = std::move(waiting_.front());
-        waiting_.pop_front();
-        under_way_.insert(first.ticket);
-        return first;
-    }
+    bool empty() const { return waiting_ == 0; }
 
-    // Of a request that was taken. Dropped if its asker has left meanwhile.
-    void answer(forward_ticket ticket, result<modbus::response> response)
-    {
-        if (under_way_.erase(ticket) != 0)
-            answers_.push_back({ticket, std::move(response)});
-    }
+    // What may become of a request that waits: it goes, it waits until then, or it fails at once.
+    struct verdict {
+        time_point not_before{};
+        std::optional<errc> failed;
+    };
+    using judge = std::function<verdict(const forward_request&)>;
 
-    void answer_all(errc why)
-    {
-        for (; !waiting_.empty(); waiting_.pop_front())
-            answers_.push_back({waiting_.front().ticket, make_error_code(why)});
-    }
+    // Drops those that fail, or whose values are known. Then: when the first of the others may go; max() = none waits.
+    time_point look(time_point now, const judge& what_of);
+
+    // The next in turn that may go now, with others that ask the same: they are under way from now on.
+    std::optional<forward_request> take(time_point now, const judge& what_of);
+
+    // Of a request that was taken. Dropped for an asker who has left meanwhile.
+    void answer(forward_ticket ticket, result<modbus::response> response, time_point now);
+    void answer_all(errc why);
+
+    // Somebody read or wrote this beside the queue, or may have written.
+    void heard(station_number unit, const modbus::request& asked, const modbus::response& answer, time_point now);
+    void forget(station_number unit) { cache_.forget(unit); }
 
     // Its asker has left: it is not taken any more, or, if it was, not repeated.
-    void cancel(forward_ticket ticket)
-    {
-        std::erase_if(waiting_, [ticket](const forward_request& each) { return each.ticket == ticket; });
-        std::erase_if(answers_, [ticket](const forward_answer& each) { return each.ticket == ticket; });
-        under_way_.erase(ticket);
-    }
+    void cancel(forward_ticket ticket);
 
     // Somebody waits for the answer of this request, which was taken.
-    bool is_wanted(forward_ticket ticket) const { return under_way_.contains(ticket); }
+    bool is_wanted(forward_ticket ticket) const;
 
-    void note_fault(forward_ticket ticket, modbus::answer_fault why) { faults_.push_back({ticket, std::move(why)}); }
+    void note_fault(forward_ticket ticket, const modbus::answer_fault& why);
 
     std::vector<forward_answer> take_answers() { return std::exchange(answers_, {}); }
     std::vector<forward_fault> take_faults() { return std::exchange(faults_, {}); }
 
 private:
-    std::deque<forward_request> waiting_;
-    std::set<forward_ticket> under_way_;
+    struct asker_queue {
+        forward_asker asker{};
+        std::deque<forward_request> waiting;
+    };
+    struct group {
+        modbus::request asked;
+        std::vector<forward_request> members;  // those who want the answer
+    };
+
+    void join(group& with);
+    void answer_one(const forward_request& to, result<modbus::response> response)
+    {
+        answers_.push_back({to.ticket, std::move(response)});
+    }
+    asker_queue& queue_of(forward_asker asker);
+    void ask_alone(std::vector<forward_request> members);
+
+    std::deque<asker_queue> askers_;  // the first is next in turn
+    std::size_t waiting_ = 0;
+    std::map<forward_ticket, group> under_way_;
+    read_cache cache_;
     std::vector<forward_answer> answers_;
     std::vector<forward_fault> faults_;
     std::uint64_t last_ = 0;

@@ -85,6 +85,9 @@ struct line_config {
     rs485_config rs485;
     bool low_latency = true;  // of a serial line, where the driver has it
     milliseconds response_timeout{500};
+    bool learn_timeout = false;      // from the stations' response times, between least_timeout and response_timeout
+    milliseconds least_timeout{50};  // only with learn_timeout
+    milliseconds forward_cache{0};   // age of values that forwarded reads may be answered with
     unsigned retries = 1;
     milliseconds turnaround_delay{100};
     microseconds gap{0};  // 0 = 3.5 characters; 1.75 ms above 19200 bit/s

@@ -130,6 +130,12 @@ void describe(Visitor& v, line_config& c)
                "Ask the driver to deliver bytes at once (ASYNC_LOW_LATENCY): USB adapters keep them for up to 16 ms");
     v.optional("response_timeout_ms", c.response_timeout,
                "Milliseconds from the end of a request to the first byte of its answer", range{1, 60'000});
+    v.optional("learn_timeout", c.learn_timeout,
+               "Learn each station's timeout from its response times; response_timeout_ms is the longest then");
+    v.optional("least_timeout_ms", c.least_timeout, "Shortest timeout that is learned", range{1, 60'000});
+    v.optional("forward_cache_ms", c.forward_cache,
+               "Age of values that forwarded reads may be answered with instead of asking the station; 0: none",
+               range{0, 60'000});
     v.optional("retries", c.retries, "Repetitions of a request that got no good answer", range{0, 20});
     v.optional("turnaround_delay_ms", c.turnaround_delay, "Milliseconds of silence after a broadcast",
                range{0, 32'767});

@@ -11,7 +11,7 @@ TEST_CASE("forwarding: each failed attempt is told, of the request that it belon
 {
     const time_point now{1s};
     const modbus::request read = modbus::read_table{modbus::table::holding_registers, {}, 1};
-    client_line line("line", {}, 1s);
+    client_line line("line", {}, {.longest_silence = 1s});
     line.start(now);
     line.port_opened();
     const auto first = line.forward(modbus::unit_id{1}, read);

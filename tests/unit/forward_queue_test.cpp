@@ -25,7 +25,7 @@ struct forwarding_line {
         return *line.forward(modbus::unit_id{static_cast<std::uint8_t>(unit)}, ask_one);
     }
 
-    client_line line{"line", {}, std::chrono::seconds(1)};
+    client_line line{"line", {}, {.longest_silence = std::chrono::seconds(1)}};
 };
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST_CASE("schedule: two failures take a station down; a failed write stays want
     CHECK(s.state_of(0) == health::down);
     s.ask(other_write);
     CHECK_FALSE(s.next(now).has_value());
-    CHECK(s.wake_at(now) == now + 1s);
+    CHECK(s.wake_at(now) <= now + 1s);
 
     now = s.wake_at(now);
     CHECK_FALSE(schedule(s).next(now)->with_retries);

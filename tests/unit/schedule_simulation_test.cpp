@@ -65,18 +65,39 @@ TEST_CASE("schedule: a line that is not full keeps every period")
         CHECK(b.polls[i] == 60s / periods[i]);
 }
 
-TEST_CASE("schedule: on a line that is too full nobody starves")
+TEST_CASE("schedule: on a line that is too full all periods are stretched by the same factor")
 {
     bus b(4);
     for (std::size_t i = 0; i < 3; ++i)
-        b.add(i, 40ms);
+        b.add(i, 40ms);  // 150 % of the line
     b.add(3, 10s);
     b.line.start(t0);
-    b.run(60s);
-    CHECK(b.polls[0] + b.polls[1] + b.polls[2] + b.polls[3] == 3000);  // busy all the time
+    b.run(10s);
+    CHECK(b.line.wanted() == doctest::Approx(1.502).epsilon(0.001));
+    CHECK(b.line.stretch() == doctest::Approx(1.502).epsilon(0.001));
+    b.polls.assign(4, 0);
+    b.run(300s);
+    CHECK(b.polls[0] + b.polls[1] + b.polls[2] + b.polls[3] == 15000);  // busy all the time
     for (std::size_t i = 0; i < 3; ++i)
-        CHECK(b.polls[i] == doctest::Approx(998).epsilon(0.05));
-    CHECK(b.polls[3] >= 5);
+        CHECK(b.mean_period(i, 300s) == doctest::Approx(0.040 * 1.502).epsilon(0.01));
+    CHECK(b.mean_period(3, 300s) == doctest::Approx(10 * 1.502).epsilon(0.06));
+}
+
+TEST_CASE("schedule: what others take is not there for the polls, and a station that is down wants nothing")
+{
+    bus b(4);
+    for (std::size_t i = 0; i < 4; ++i)
+        b.add(i, 60ms);  // 133 %
+    b.line.start(t0);
+    b.run(10s);
+    CHECK(b.line.stretch() == doctest::Approx(4.0 / 3).epsilon(0.01));
+    b.dead = {2, 3};  // 67 % remain, and 5 % for probes
+    b.run(60s);
+    CHECK(b.line.wanted() == doctest::Approx(2.0 / 3).epsilon(0.01));
+    CHECK(b.line.stretch() == 1);
+    b.polls.assign(4, 0);
+    b.run(60s);
+    CHECK(b.mean_period(0, 60s) == doctest::Approx(0.060).epsilon(0.02));
 }
 
 TEST_CASE("schedule: a station dies, the others keep their pace within 10 %")

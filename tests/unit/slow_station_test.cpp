@@ -23,7 +23,7 @@ class slow_line : public fx3u_fixture {
 public:
     slow_line(duration delay, unsigned retries, duration period, bool one_by_one)
         : delay_(delay), one_by_one_(one_by_one), timing_{.format = {}, .response_timeout = 500ms, .retries = retries},
-          routes_("bus", {{"slow", unit, timing_}}, 10s)
+          routes_("bus", {{"slow", unit, timing_}}, {.longest_silence = 10s})
     {
         for (const std::uint16_t at : addresses)
             routes_.add_route(route_to(("D" + std::to_string(at)).c_str(), table::holding_registers, at, 2), 0, period);
