@@ -16,7 +16,9 @@ inline constexpr modbus::serial_options patient{.format = {}, .retries = 2};
 inline constexpr modbus::serial_options hasty{.format = {}, .response_timeout = 200ms};
 
 struct line_fixture : fx3u_fixture {
-    client_line line{"bus 1", {{"pump", modbus::unit_id{5}, patient}, {"valve", modbus::unit_id{6}, hasty}}, {.longest_silence = 10s}};
+    client_line line{"bus 1",
+                     {{"pump", modbus::unit_id{5}, patient}, {"valve", modbus::unit_id{6}, hasty}},
+                     {.longest_silence = 10s}};
     time_point now = t0;
 
     // Two reads of the pump, one of the valve.
