@@ -81,14 +81,16 @@ void gateway::make_lines()
             make_message_line(each);
             continue;
         }
-        if (each.role == line_role::server) {
-            server_lines_.push_back(make_server_line(loop_, each, plc, fp7_ports_, [this] { settle_memory(); }));
+        if (each.role == line_role::server)
             continue;
-        }
         const std::size_t index = lines_.size();
         lines_.push_back(
             std::make_unique<running_line>(loop_, config_, each, plc, [this, index] { settle(*lines_[index]); }));
     }
+    const auto gate = [this](const std::string& name) -> forward_gate& { return find_line(name)->gate; };
+    for (const line_config& each : config_.lines)
+        if (each.role == line_role::server && each.protocol != line_protocol::general_purpose)
+            server_lines_.push_back(make_server_line(loop_, each, plc, gate, fp7_ports_, [this] { settle_memory(); }));
 }
 
 void gateway::make_message_line(const line_config& line)

@@ -6,40 +6,41 @@ namespace {
 using boost::system::error_code;
 using modbus::bus_event;
 
-std::vector<modbus::unit_id> units_of(const std::vector<modbus_station>& stations)
-{
-    std::vector<modbus::unit_id> units;
-    for (const modbus_station& each : stations)
-        units.push_back(each.unit());
-    return units;
-}
-
-// Each station has its own, which its client may change; frames are told apart by all of them.
-buffer delimiters_of(std::vector<modbus_station>& stations)
-{
-    buffer all;
-    for (modbus_station& each : stations)
-        all.push_back(each.delimiter());
-    return all;
-}
-
 }  // namespace
 
 serial_server::serial_server(asio::io_context& loop, line_config config, std::vector<modbus_station> stations,
-                             std::function<void()> settle)
-    : config_(std::move(config)), stations_(std::move(stations)), settle_(std::move(settle)),
-      connection_(make_connection(loop, config_)), echo_(config_.echo), in_(make_framer()), gap_(loop)
+                             serial_forwarder others, std::function<void()> settle)
+    : config_(std::move(config)), executor_(loop.get_executor()), stations_(std::move(stations)),
+      others_(std::move(others)), settle_(std::move(settle)), connection_(make_connection(loop, config_)),
+      echo_(config_.echo), in_(make_framer()), gap_(loop)
 {
 }
 
-modbus::bus_framer serial_server::make_framer() const
+std::vector<modbus::unit_id> serial_server::units() const
 {
-    return {framing_of(config_), units_of(stations_), silence_of(config_)};
+    std::vector<modbus::unit_id> all = others_.units();
+    for (const modbus_station& each : stations_)
+        all.push_back(each.unit());
+    return all;
 }
+
+// Each station has its own, which its client may change; frames are told apart by all of them.
+buffer serial_server::delimiters()
+{
+    buffer all;
+    for (modbus_station& each : stations_)
+        all.push_back(each.delimiter());
+    if (!others_.empty())
+        all.push_back(modbus::ascii_delimiter);
+    return all;
+}
+
+modbus::bus_framer serial_server::make_framer() const { return {framing_of(config_), units(), silence_of(config_)}; }
 
 void serial_server::reset()
 {
     in_ = make_framer();
+    others_.give_up();
     ++resets_;
 }
 
@@ -56,6 +57,7 @@ asio::awaitable<void> serial_server::run()
         in_ = make_framer();
         echo_ = echo_filter(config_.echo);
         const error_code ec = co_await serve();
+        others_.give_up();
         connection_->close(ec);
     }
 }
@@ -63,6 +65,11 @@ asio::awaitable<void> serial_server::run()
 asio::awaitable<error_code> serial_server::serve()
 {
     for (;;) {
+        if (auto answer = others_.take_answer()) {
+            const error_code ec = co_await reply_forwarded(std::move(*answer));
+            if (ec)
+                co_return ec;
+        }
         const time_point until = in_.deadline();
         const auto size = co_await connection_->read(until, asio::buffer(received_));
         if (size)
@@ -70,7 +77,7 @@ asio::awaitable<error_code> serial_server::serve()
         else if (size.error() != asio::error::timed_out)
             co_return size.error();
         for (;;) {
-            in_.set_delimiters(delimiters_of(stations_));
+            in_.set_delimiters(delimiters());
             auto event = in_.next(now());
             if (!event)
                 break;
@@ -84,6 +91,7 @@ asio::awaitable<error_code> serial_server::serve()
 
 asio::awaitable<error_code> serial_server::take(bus_event event)
 {
+    others_.give_up();  // whatever it is: the client does not wait any more
     const bool ascii = framing_of(config_) == modbus::framing::ascii;
     const auto is_end_of_frame = [&](modbus_station& at) { return !ascii || at.delimiter() == in_.delimiter(); };
     const bit_errors wrong = connection_->take_bit_errors();
@@ -111,11 +119,34 @@ asio::awaitable<error_code> serial_server::take(bus_event event)
         if (ec)
             co_return ec;
     }
+    if (!ascii || in_.delimiter() == modbus::ascii_delimiter) {
+        forwarded_heard_ = in_.heard();
+        others_.ask(executor_, event.content, [this] { connection_->interrupt(); });
+    }
     co_return error_code{};
 }
 
-// The silence before a frame is counted from the last byte heard.
 asio::awaitable<error_code> serial_server::reply(modbus_station& station, buffer pdu)
+{
+    const unsigned resets = resets_;
+    modbus::frame content{station.unit(), std::move(pdu)};
+    const error_code ec = co_await send(std::move(content), station.delimiter());
+    if (!ec && resets == resets_)
+        station.sent();
+    co_return ec;
+}
+
+// The client has begun to say something else meanwhile: it would take this answer for another.
+asio::awaitable<error_code> serial_server::reply_forwarded(modbus::frame answer)
+{
+    if (in_.heard() != forwarded_heard_)
+        co_return error_code{};
+    const error_code ec = co_await send(std::move(answer), modbus::ascii_delimiter);
+    co_return ec;
+}
+
+// The silence before a frame is counted from the last byte heard.
+asio::awaitable<error_code> serial_server::send(modbus::frame content, std::uint8_t delimiter)
 {
     const duration gap = std::max<duration>(config_.gap, frame_gap(format_of(config_)));
     const unsigned resets = resets_;
@@ -123,13 +154,10 @@ asio::awaitable<error_code> serial_server::reply(modbus_station& station, buffer
     co_await gap_.async_wait(no_throw);
     if (resets != resets_)
         co_return error_code{};
-    const bool like_request = modbus::parse_request(pdu).has_value();
-    const modbus::frame content{station.unit(), std::move(pdu)};
-    const buffer adu = modbus::encode_adu(framing_of(config_), content, station.delimiter());
+    const bool like_request = modbus::parse_request(content.pdu).has_value();
+    const buffer adu = modbus::encode_adu(framing_of(config_), content, delimiter);
     echo_.sent(adu, like_request, now() + echo_time(config_, adu.size()));
     const error_code ec = co_await connection_->write(adu);
-    if (!ec)
-        station.sent();
     co_return ec;
 }
 

@@ -6,6 +6,7 @@
 #include "daemon/fp7_line_ports.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
+#include "daemon/serial_forwarder.hpp"
 #include "protocols/echo_filter.hpp"
 #include "protocols/modbus/bus_framer.hpp"
 
@@ -16,9 +17,9 @@ namespace plcgw {
 
 class serial_server final : public line_driver {
 public:
-    // settle: called after each request, to drain what it changed.
+    // others: units that lead to other lines. settle: called after each request, to drain what it changed.
     serial_server(asio::io_context& loop, line_config config, std::vector<modbus_station> stations,
-                  std::function<void()> settle);
+                  serial_forwarder others, std::function<void()> settle);
 
     asio::awaitable<void> run() override;
     void wake() override {}
@@ -33,9 +34,16 @@ private:
     asio::awaitable<boost::system::error_code> serve();  // until the port fails
     asio::awaitable<boost::system::error_code> take(modbus::bus_event event);
     asio::awaitable<boost::system::error_code> reply(modbus_station& station, buffer pdu);
+    asio::awaitable<boost::system::error_code> reply_forwarded(modbus::frame answer);
+    asio::awaitable<boost::system::error_code> send(modbus::frame content, std::uint8_t delimiter);
+    std::vector<modbus::unit_id> units() const;
+    buffer delimiters();
 
     line_config config_;
+    asio::any_io_executor executor_;
     std::vector<modbus_station> stations_;
+    serial_forwarder others_;
+    time_point forwarded_heard_{};  // the last byte of the request that is forwarded
     std::function<void()> settle_;
     std::unique_ptr<line_connection> connection_;
     echo_filter echo_;

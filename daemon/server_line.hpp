@@ -11,8 +11,10 @@ namespace plcgw {
 // What a PLC shows of a line that the configuration sets up.
 plc::channel_line shown_line(const line_config& line, plc::role as, unsigned unit);
 
+using find_gate = std::function<forward_gate&(const std::string& line)>;
+
 // settle: called after each exchange, to drain what it changed.
 std::unique_ptr<line_driver> make_server_line(asio::io_context& loop, const line_config& line, const find_plc& plc,
-                                              fp7_ports& ports, std::function<void()> settle);
+                                              const find_gate& gate, fp7_ports& ports, std::function<void()> settle);
 
 }  // namespace plcgw

@@ -65,8 +65,8 @@ void check_server_line(check_context& c, com_port_users& com_ports, std::size_t 
     check_units(c, item("lines", i, "units"), {l.units.begin(), l.units.end()});
     for (std::size_t u = 0; u < l.units.size(); ++u) {
         const std::string at = item("lines", i, "units") + "/" + std::to_string(u);
-        if (!l.units[u].line.empty())
-            c.complain(at + "/line", "forwards from a serial line, which this version cannot: give \"plc\"");
+        if (!l.units[u].line.empty() && is_mewtocol(l.protocol))
+            c.complain(at + "/line", "forwards MEWTOCOL, which is not possible: give \"plc\"");
         check_number(c, at, l.units[u].unit, l.protocol);
         check_unit_plc(c, at, l.units[u], l.protocol);
         if (c.is_sound(at))
