@@ -82,6 +82,7 @@ void plc_link_exchange::received(time_point now, const plc_link_area& area)
     if (known != others_.end() && known->second.sender == area.sender &&
         known->second.settings == area.station.settings) {
         known->second.heard = now;
+        roll_.heard(now, area);
         store(area);
         return;
     }
@@ -89,11 +90,14 @@ void plc_link_exchange::received(time_point now, const plc_link_area& area)
     const sender_key key{number, area.sender.gateway, area.sender.member};
     if (const auto why = reason_to_refuse(area)) {
         say(key, severity::warning, name_of(number, area.sender) + " is refused: " + *why);
+        roll_.heard(now, area, plc_link_state::refused, *why);
         return;
     }
     others_[number] = {area.sender, area.station.settings, now};
     const std::string but = reservations(area);
-    say(key, but.empty() ? severity::info : severity::warning, name_of(number, area.sender) + " takes part" + but);
+    say(key, but.empty() ? severity::info : severity::warning,
+        name_of(number, area.sender) + " takes part" + (but.empty() ? "" : ", but " + but));
+    roll_.heard(now, area, plc_link_state::active, but);
     store(area);
 }
 
@@ -130,8 +134,8 @@ std::string plc_link_exchange::reservations(const plc_link_area& area) const
 {
     std::string but;
     for (const plc_link_mistake& m : check_pair(own_, area.station))
-        but += (but.empty() ? ", but " : "; ") +
-               std::string(m.index == 0 ? "in this PLC, " + plc_->name() + ", " : "its ") + text_of(m);
+        but += (but.empty() ? "" : "; ") + std::string(m.index == 0 ? "in this PLC, " + plc_->name() + ", " : "its ") +
+               text_of(m);
     return but;
 }
 
@@ -146,16 +150,17 @@ void plc_link_exchange::store(const plc_link_area& area)
     put(registers_, s.register_first, own_.settings.register_words, area.registers);
 }
 
-void plc_link_exchange::gone(const plc_link_gone& who)
+void plc_link_exchange::gone(time_point now, const plc_link_gone& who)
 {
     if (who.link != link_)
         return;
     const auto known = others_.find(who.station);
     if (known != others_.end() && known->second.sender.gateway == who.gateway &&
         known->second.sender.member == who.member)
-        give_up(known);
+        give_up(now, known);
     else
         said_.erase({who.station, who.gateway, who.member});
+    roll_.gone(now, who.station, who.gateway, who.member);
 }
 
 void plc_link_exchange::look(time_point now)
@@ -163,14 +168,24 @@ void plc_link_exchange::look(time_point now)
     for (auto each = others_.begin(); each != others_.end();) {
         const auto which = each++;
         if (now >= which->second.heard + pace_.given_up)
-            give_up(which);
+            give_up(now, which);
     }
 }
 
-void plc_link_exchange::give_up(std::map<unsigned, other>::iterator which)
+void plc_link_exchange::reset()
+{
+    others_.clear();
+    said_.clear();
+    roll_.clear();
+    sent_at_.reset();
+    changed_ = true;
+}
+
+void plc_link_exchange::give_up(time_point now, std::map<unsigned, other>::iterator which)
 {
     const auto& [number, was] = *which;
     said_.erase({number, was.sender.gateway, was.sender.member});
+    roll_.gone(now, number, was.sender.gateway, was.sender.member);
     events_.push_back({severity::warning, name_of(number, was.sender) + " is gone: its words stay as they were"});
     others_.erase(which);
 }
@@ -189,6 +204,8 @@ std::string plc_link_exchange::name_of(unsigned station, const plc_link_sender& 
     return "PLC link " + link_ + ": station " + std::to_string(station) + " of gateway " + sender.gateway + " (" +
            sender.member + ")";
 }
+
+std::vector<plc_link_seen> plc_link_exchange::seen(time_point now) const { return roll_.seen(now, pace_.given_up); }
 
 std::vector<unsigned> plc_link_exchange::others() const
 {

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "bridge/plc/simulated_plc.hpp"
-#include "bridge/plc_link_area.hpp"
+#include "bridge/plc_link_roll.hpp"
 
 #include <map>
 #include <optional>
@@ -35,6 +35,8 @@ public:
                       plc_link_pace pace = {});
 
     const std::string& link() const { return link_; }
+    const plc::simulated_plc& plc() const { return *plc_; }
+    const plc_link_station& own() const { return own_; }
 
     // False when it is none of the words that this station sends.
     bool memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
@@ -45,12 +47,16 @@ public:
     // Puts the words of another station into the PLC's memory, or refuses them. Those of other links and our own are
     // not looked at.
     void received(time_point now, const plc_link_area& area);
-    void gone(const plc_link_gone& who);
+    void gone(time_point now, const plc_link_gone& who);
     void look(time_point now);  // gives up those that were silent for too long
+
+    // The channel reset of the port (9.4.3, Y10): the others are taken in anew, and our words go out at once.
+    void reset();
 
     time_point wake_at() const;  // when next() or look() is due although nothing happens
 
-    std::vector<unsigned> others() const;  // stations that take part
+    std::vector<unsigned> others() const;                   // stations that take part
+    std::vector<plc_link_seen> seen(time_point now) const;  // all that were heard since the start or a reset
     std::vector<plc_link_event> take_events() { return std::exchange(events_, {}); }
 
 private:
@@ -64,7 +70,7 @@ private:
     std::optional<std::string> reason_to_refuse(const plc_link_area& area) const;
     std::string reservations(const plc_link_area& area) const;
     void store(const plc_link_area& area);
-    void give_up(std::map<unsigned, other>::iterator which);
+    void give_up(time_point now, std::map<unsigned, other>::iterator which);
     void say(const sender_key& of, plc_link_event::severity level, std::string text);
     std::string name_of(unsigned station, const plc_link_sender& sender) const;
 
@@ -78,6 +84,7 @@ private:
     std::map<unsigned, other> others_;
     std::map<sender_key, std::string> said_;  // the last about each, so that it is said once
     std::vector<plc_link_event> events_;
+    plc_link_roll roll_;
     std::optional<time_point> sent_at_;
     bool changed_ = true;
     std::uint64_t sequence_ = 0;

@@ -8,6 +8,8 @@
 namespace plcgw {
 namespace {
 
+constexpr unsigned link_port = 1;  // COM.1
+
 plc::com_mode mode_of(line_protocol p)
 {
     switch (p) {
@@ -30,6 +32,14 @@ plc::com_parameters com_parameters_of(const line_config& line, unsigned station)
     return {.mode = mode_of(line.protocol), .station = station, .format = format_of(line), .send_wait = line.gap};
 }
 
+plc::com_parameters com_parameters_of(const plc_link_station& station)
+{
+    return {.mode = plc::com_mode::plc_link,
+            .station = station.station,
+            .format = {.baud_rate = 115'200, .data_bits = 8, .check = parity::odd, .stop_bits = 1},
+            .link = station.settings};
+}
+
 fp7_ports::fp7_ports(asio::io_context& loop, std::function<void()> settle) : settle_(std::move(settle)), timer_(loop) {}
 
 fp7_unit* fp7_ports::open(plc::simulated_plc& plc, unsigned com, const line_config& line, unsigned station,
@@ -41,6 +51,15 @@ fp7_unit* fp7_ports::open(plc::simulated_plc& plc, unsigned com, const line_conf
     at->second.unit.open(now(), com, com_parameters_of(line, station), card_of(line));
     at->second.resets[com] = std::move(reset);
     return &at->second.unit;
+}
+
+bool fp7_ports::open(plc::simulated_plc& plc, const plc_link_station& station, std::function<void()> reset)
+{
+    const auto [at, is_new] = units_.try_emplace(&plc, unit_at_work{fp7_unit(plc), {}});
+    if (!at->second.resets.try_emplace(link_port, std::move(reset)).second)
+        return false;
+    at->second.unit.open(now(), link_port, com_parameters_of(station), plc::com_card::rs485);
+    return true;
 }
 
 void fp7_ports::look()

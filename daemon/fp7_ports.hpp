@@ -24,6 +24,10 @@ public:
     fp7_unit* open(plc::simulated_plc& plc, unsigned com, const line_config& line, unsigned station,
                    std::function<void()> reset);
 
+    // A PLC link: COM.1 of the CPU, which may be in that mode (6.2.1). False, and nothing happens, when a line or
+    // another link stands for that port already: a second link is one of a unit in a slot, which PMGET reads elsewhere.
+    bool open(plc::simulated_plc& plc, const plc_link_station& station, std::function<void()> reset);
+
     // To be called after the memory changed and before the changes are drained.
     void look();
 
@@ -43,5 +47,8 @@ private:
 
 // As the line's settings show in PMGET.
 plc::com_parameters com_parameters_of(const line_config& line, unsigned station);
+
+// Those of a PLC link, of which the CPU sets all but the station and the areas (6.2.3).
+plc::com_parameters com_parameters_of(const plc_link_station& station);
 
 }  // namespace plcgw

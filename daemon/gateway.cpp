@@ -4,6 +4,7 @@
 #include "daemon/control_path.hpp"
 #include "daemon/log.hpp"
 #include "daemon/plc_command.hpp"
+#include "daemon/plc_link_command.hpp"
 #include "daemon/service_notify.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -157,7 +158,7 @@ void gateway::make_plc_links()
         return;
     links_ = std::make_unique<plc_links>(loop_, config_, started_, [this] { settle_memory(); });
     for (const plc_link_config& each : config_.plc_links)
-        links_->add(each, *find_plc(each.plc));
+        links_->add(each, *find_plc(each.plc), fp7_ports_);
 }
 
 bool gateway::start()
@@ -208,6 +209,8 @@ void gateway::start_control()
 
 nlohmann::json gateway::command(const nlohmann::json& what)
 {
+    if (what.value("command", "") == "plc-link")
+        return plc_link_command(links_.get(), now());
     nlohmann::json reply = plc_command(plcs_, what);
     settle_memory();
     return reply;

@@ -4,6 +4,7 @@
 #include "daemon/link_time_command.hpp"
 #include "daemon/map_command.hpp"
 #include "daemon/plc_command.hpp"
+#include "daemon/plc_link_command.hpp"
 #include "daemon/run.hpp"
 #include "daemon/version.hpp"
 #include "daemon/watch.hpp"
@@ -131,6 +132,9 @@ int run_command(int argc, char** argv)
     plc->add_option("name", plc_name, "Name of the PLC");
     plc->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
 
+    CLI::App* const plc_link = app.add_subcommand("plc-link", "Show the PLC links of the running gateway");
+    plc_link->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
+
     const CLI::App* const schema = app.add_subcommand("schema", "Print the JSON Schema of the configuration");
 
     try {
@@ -147,6 +151,8 @@ int run_command(int argc, char** argv)
         return watched.run();
     if (*plc)
         return plcgw::plc_client(socket, plc_action, plc_name);
+    if (*plc_link)
+        return plcgw::plc_link_client(socket);
     if (*map)
         return plcgw::show_map(mapped);
     if (*link_time)

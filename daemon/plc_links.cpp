@@ -25,10 +25,20 @@ plc_links::plc_links(asio::io_context& loop, const gateway_config& config, wall_
 {
 }
 
-void plc_links::add(const plc_link_config& link, plc::simulated_plc& plc)
+void plc_links::add(const plc_link_config& link, plc::simulated_plc& plc, fp7_ports& ports)
 {
+    const std::size_t index = links_.size();
     links_.emplace_back(link.name, plc, link.as, self_);
+    ports.open(plc, link.as, [this, index] { reset(index); });
     log::info("PLC link {}: {} is station {}", link.name, plc.name(), link.as.station);
+}
+
+// Called while the memory's changes are drained, which sends what is due.
+void plc_links::reset(std::size_t index)
+{
+    log::info("PLC link {}: channel reset, the stations are taken in anew", links_[index].link());
+    links_[index].reset();
+    timer_.cancel();
 }
 
 void plc_links::start() { asio::co_spawn(loop_, keep_time(), asio::detached); }
@@ -86,7 +96,7 @@ void plc_links::receive()
             if (const auto* const area = std::get_if<plc_link_area>(&each))
                 link.received(now(), *area);
             else
-                link.gone(std::get<plc_link_gone>(each));
+                link.gone(now(), std::get<plc_link_gone>(each));
         }
     log_events();
     if (!news.empty())

@@ -4,6 +4,7 @@
 #include "bridge/dds/plc_link_port.hpp"
 #include "bridge/plc_link_exchange.hpp"
 #include "daemon/config/config.hpp"
+#include "daemon/fp7_ports.hpp"
 #include "daemon/read_before.hpp"
 
 #include <boost/asio/io_context.hpp>
@@ -18,8 +19,12 @@ public:
     // settle: called when words of other stations came into a PLC's memory.
     plc_links(asio::io_context& loop, const gateway_config& config, wall_time started, std::function<void()> settle);
 
-    void add(const plc_link_config& link, plc::simulated_plc& plc);
+    // The link is what COM.1 of the PLC does, unless something else is that already.
+    void add(const plc_link_config& link, plc::simulated_plc& plc, fp7_ports& ports);
     void start();
+
+    const std::vector<plc_link_exchange>& all() const { return links_; }
+    bool runs() const { return port_.has_value(); }  // false while DDS does not work
 
     void memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
     void send();  // what is due now; the rest goes out at its time
@@ -28,6 +33,7 @@ private:
     asio::awaitable<void> keep_time();
     asio::awaitable<void> listen();
     bool open();
+    void reset(std::size_t index);
     void receive();
     void log_events();
     time_point wake_at() const;

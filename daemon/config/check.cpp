@@ -25,6 +25,7 @@ void check(const gateway_config& c, const located_json& file, const std::string&
     unique_names(context, "routes", c.routes);
     check_plcs(context);
     check_lines(context);
+    check_channel_users(context);
     check_stations(context);
     device_check devices(context);
     occupied_devices occupied;

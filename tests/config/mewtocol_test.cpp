@@ -61,7 +61,8 @@ TEST_CASE("check: a COM port of an FP7 stands for one station")
     CHECK(said(served("mewtocol-com", unit(1) + ", " + unit(2, "q"))) == "");
     CHECK(said(served("mewtocol-com", unit(1) + ", " + unit(2, "p", 2))) == "");
     CHECK(said(served("mewtocol-com", unit(1) + ", " + unit(2))) ==
-          "2 /lines/0/units/1/channel is COM.1 of \"p\", which line \"l\" stands for already: give another one");
+          "2 /lines/0/units/1/channel is COM.1 of \"p\", which /lines/0/units/0/channel gives to line \"l\" already: a "
+          "port has one line and one station, give another one");
     CHECK(said(served("modbus-rtu", unit(1) + ", " + unit(2), "", "FX3U")) == "");
 }
 

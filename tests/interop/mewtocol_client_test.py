@@ -19,6 +19,7 @@ def source(name, first, device, count=1, **more):
 class MewtocolClientTest(InteropTest):
     def start(self, *routes, line=None, **simulated):
         self.fp7 = MewtocolStation(self.folder / "line", **simulated)
+        self.addCleanup(lambda: self.assertEqual(self.fp7.wrong, []))
         self.addCleanup(self.fp7.end)
         self.fp7.start()
         configuration = self.configuration(lines=[mewtocol_line(self.folder / "line", **(line or {}))],

@@ -1,6 +1,7 @@
 """A simulated FP7 on a pty that speaks MEWTOCOL-COM: split responses, errors, late, damaged and missing answers.
 
-Written from the protocol's notes alone, with its own check code: nothing of it is shared with the gateway.
+Written from the protocol's notes alone, with its own check code: nothing of it is shared with the gateway. What it
+needs of a pty is the base of the station that speaks MEWTOCOL7-COM, too.
 """
 
 import heapq
@@ -32,26 +33,20 @@ class Refused(Exception):
     """The two digits of an error response."""
 
 
-class MewtocolStation(threading.Thread):
-    """DT and LD words hold their number; WX, WY, WR and WL are 0, until somebody writes."""
+class PtyStation(threading.Thread):
+    """Hears frames that end with CR. What it answers, `misbehave` may spoil."""
 
-    def __init__(self, link, number=7, split=None, longest=2048):
+    def __init__(self, link):
         super().__init__(daemon=True)
         self.ours, self.theirs = os.openpty()  # both stay open: the port never hangs up
         tty.setraw(self.theirs)
         os.set_blocking(self.ours, False)
         os.symlink(os.ttyname(self.theirs), link)
         self.link = link
-        self.number = number
-        self.split = split     # characters of data in a frame of a `%` response, or None: it is never split
-        self.longest = longest  # characters of a frame
-        self.memory = {}       # (area, number): word
-        self.sizes = {"D": 10000, "L": 10000, "WX": 128, "WY": 128, "WR": 128, "WL": 128}
         self.misbehave = None  # makes of the good answer a list of (seconds, bytes) that are sent instead
         self.refuse = None     # two digits: answered to everything
         self.commands = []     # heard, without header and check
-        self.globals = []      # those to all stations
-        self.rest = []         # frames of a response that wait for `&`
+        self.wrong = []        # frames that no client may send
         self.received = b""
         self.outgoing = []     # heap of (time, number, bytes)
         self.asked = 0
@@ -65,21 +60,56 @@ class MewtocolStation(threading.Thread):
                     frame, _, self.received = self.received.partition(b"\r")
                     self.hear(frame.decode())
             while self.outgoing and self.outgoing[0][0] <= time.monotonic():
-                try:
-                    os.write(self.ours, heapq.heappop(self.outgoing)[2])
-                except BlockingIOError:
-                    pass  # lost, as on a line that nobody reads
+                self.transmit(heapq.heappop(self.outgoing)[2])
+
+    def transmit(self, data):
+        """A pty takes some thousand bytes at a time; what nobody reads is lost after a while, as on a line."""
+        give_up = time.monotonic() + 0.5
+        while data and time.monotonic() < give_up:
+            try:
+                data = data[os.write(self.ours, data):]
+            except BlockingIOError:
+                time.sleep(0.001)
 
     def patience(self):
         return min(0.02, max(0, self.outgoing[0][0] - time.monotonic())) if self.outgoing else 0.02
 
     def hear(self, frame):
-        if len(frame) + 1 > (118 if frame[0] == "%" else self.longest):
-            raise AssertionError(f"too long: {frame}")
+        raise NotImplementedError
+
+    def say(self, answer):
+        """With the end code."""
+        for delay, data in self.misbehave(answer) if self.misbehave else [(0, answer)]:
+            self.asked += 1
+            heapq.heappush(self.outgoing, (time.monotonic() + delay, self.asked, data))
+
+    def end(self):
+        self.ended = True
+        self.join()
+        os.close(self.ours)
+        os.close(self.theirs)
+        os.unlink(self.link)
+
+
+class MewtocolStation(PtyStation):
+    """DT and LD words hold their number; WX, WY, WR and WL are 0, until somebody writes."""
+
+    def __init__(self, link, number=7, split=None, longest=2048):
+        super().__init__(link)
+        self.number = number
+        self.split = split     # characters of data in a frame of a `%` response, or None: it is never split
+        self.longest = longest  # characters of a frame
+        self.memory = {}       # (area, number): word
+        self.sizes = {"D": 10000, "L": 10000, "WX": 128, "WY": 128, "WR": 128, "WL": 128}
+        self.globals = []      # commands to all stations
+        self.rest = []         # frames of a response that wait for `&`
+
+    def hear(self, frame):
         more = frame.endswith("&")
         text, check = (frame[:-3], frame[-3:-1]) if more else (frame[:-2], frame[-2:])
-        if check != bcc(text):
-            raise AssertionError(f"a check code that is not ours: {frame}")
+        if check != bcc(text) or len(frame) + 1 > (118 if frame[0] == "%" else self.longest):
+            self.wrong.append(frame)
+            return
         head, station, body = text[0], text[1:3], text[3:]
         if station == "FF":
             self.globals.append(body[1:])
@@ -87,7 +117,6 @@ class MewtocolStation(threading.Thread):
             return
         if station != f"{self.number:02}":
             return
-        self.asked += 1
         self.commands.append(body[1:])
         if more:
             answers = [self.rest.pop(0)] if self.rest else ["!43"]
@@ -99,9 +128,7 @@ class MewtocolStation(threading.Thread):
             answers = self.respond(head, body[1:])
         last = not self.rest
         answer = f"{head}{station}{answers[0]}"
-        answer = (answer + bcc(answer) + ("" if last else "&") + "\r").encode()
-        for delay, data in self.misbehave(answer) if self.misbehave else [(0, answer)]:
-            heapq.heappush(self.outgoing, (time.monotonic() + delay, self.asked, data))
+        self.say((answer + bcc(answer) + ("" if last else "&") + "\r").encode())
 
     def respond(self, head, command):
         try:
@@ -162,10 +189,3 @@ class MewtocolStation(threading.Thread):
 
     def word(self, area, number):
         return self.memory.get((area, number), number if area in "DL" else 0)
-
-    def end(self):
-        self.ended = True
-        self.join()
-        os.close(self.ours)
-        os.close(self.theirs)
-        os.unlink(self.link)

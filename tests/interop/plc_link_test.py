@@ -5,7 +5,9 @@ from a panel, an FX3U of the same gateway: clients write D0-D7 and M0-M15 there,
 to the link registers, D4-D7 to the words of link relays, and M0-M15 to one more word of link relays.
 """
 
-from support import InteropTest, holds, main, wait_for
+import subprocess
+
+from support import PATIENCE, InteropTest, binary, holds, main, wait_for
 
 WL, LD = 0x0000, 0x07D0  # input registers
 FP7, PANEL = 1, 9        # unit ids
@@ -19,7 +21,7 @@ def sends(station, first, **more):
 
 
 class PlcLinkTest(InteropTest):
-    def start(self, name, link, **more):
+    def start(self, name, link, dds_blocks=(), **more):
         """A gateway with an FP7 of that name and its panel."""
         first = link.get("relay_first", 0)
         block = link.get("block", 0)
@@ -36,6 +38,8 @@ class PlcLinkTest(InteropTest):
             "plc_links": [{"name": "cell", "plc": name, **link}],
             "control": {"socket": str(self.folder / f"{name}.sock")},
             **more}
+        configuration["dds"]["blocks"] = [{"plc": name, "device": device, "count": count}
+                                          for device, count in dds_blocks]
         server = configuration["modbus_tcp"][0]
         server["units"] = [{"unit": FP7, "plc": name}, {"unit": PANEL, "plc": "panel"}]
         configuration["lines"][0]["port"] = server["port"]
@@ -136,6 +140,51 @@ class PlcLinkTest(InteropTest):
         self.heard(two, "station 1 of gateway one")
         self.heard(one, "is refused: it is the number of this PLC, one")
         holds("nothing comes", lambda: one.fp7.input(LD + 10, 4) == [0] * 4, 0.5)
+
+    def links_of(self, name):
+        """plc-gateway plc-link, and how often blanks follow each other does not matter."""
+        done = subprocess.run([binary("PLC_GATEWAY"), "plc-link", "--socket", self.folder / f"{name}.sock"], text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              timeout=PATIENCE, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return [" ".join(line.split()) for line in done.stdout.splitlines()]
+
+    def test_the_command_shows_the_stations(self):
+        one = self.start("one", sends(1, 0))
+        self.assertEqual(self.links_of("one"), ["cell: one is station 1 of 16, sends WL0-WL4, LD0-LD3",
+                                                "no other station was heard"])
+        two, three = self.start("two", sends(2, 10)), self.start("three", sends(3, 13))
+        self.heard(one, "is refused")
+        lines = self.links_of("one")
+        self.assertEqual(len(lines), 3)
+        self.assertRegex(lines[1], r"^2 two \(.*\) WL10-WL14, LD10-LD13 active for [0-9.]+ s, heard 0\.[0-9] s ago$")
+        self.assertRegex(lines[2], r"^3 three \(.*\) WL13-WL17, LD13-LD16 refused for [0-9.]+ s, heard 0\.[0-9] s ago: "
+                                   r"relay_first sends WL13-WL17, which overlaps with WL10-WL14 of station 2$")
+        three.stop()
+        two.kill()
+        self.heard(one, "is gone")
+        wait_for("both are gone", lambda: [line.split(" gone for ")[0].split()[0] for line in self.links_of("one")[1:]
+                                           if " gone for " in line] == ["2", "3"])
+
+    def test_a_plc_program_finds_the_mode_the_station_and_the_areas(self):
+        """PMGET of COM.1 (10.3.2), the contacts of 4.1, and the channel reset Y10."""
+        one = self.start("one", sends(3, 7, max_station=5), dds_blocks=[("UM100", 26), ("UM150", 7)])
+        two = self.start("two", sends(1, 20, max_station=5))
+        watch = one.watch()
+        # PLC link, station 3, 115200 bit/s, 8 bits, odd, 1 stop bit; block 0, 5 stations, 64 and 128 words, from 7 on.
+        watch.expect("one.UM100", values=[9, 3, 9, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 5, 64, 128, 7, 5, 7, 4, 0, 0, 0, 0])
+        watch.expect("one.UM150", values=[9, 485, 0, 0, 0, 0, 0])
+        self.assertEqual(one.fp7.discrete(0, 0x20), [0] * 0x20)  # neither general-purpose nor a master
+        two.panel.write_registers(0, [6] * 8)
+        self.expect(one, LD + 20, [6] * 4)
+        one.fp7.write_coil(0x10, 1)
+        self.assertEqual(one.fp7.discrete(0x10), [1])
+        self.heard(one, "channel reset, the stations are taken in anew")
+        one.fp7.write_coil(0x10, 0)
+        self.assertEqual(one.fp7.discrete(0x10), [0])
+        two.panel.write_registers(0, [7] * 8)
+        self.expect(one, LD + 20, [7] * 4)
+        self.assertEqual(one.log.count("station 1 of gateway two"), 2)
 
     def test_block_1_takes_the_words_of_block_0(self):
         one, two = self.start("one", sends(1, 0)), self.start("two", sends(2, 10, block=1))

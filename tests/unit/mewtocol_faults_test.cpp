@@ -5,6 +5,8 @@
 // begins a frame that has no `#` or `$`; a last digit 6 that becomes `&` makes a check of the two characters in front
 // of it, which then fits no text.
 #include "protocols/mewtocol/conversation.hpp"
+#include "tests/unit/mewtocol_client.hpp"
+#include "tests/unit/mewtocol_damage.hpp"
 #include "tests/unit/mewtocol_vectors.hpp"
 
 #include <random>
@@ -51,40 +53,6 @@ std::optional<std::optional<response>> answer_in(const buffer& received, const f
     return std::nullopt;
 }
 
-// Calls try_it for each damaged form, with what was done to it.
-template <class Try>
-void every_wrong_bit(const buffer& good, Try try_it)
-{
-    for (std::size_t at = 0; at < good.size(); ++at)
-        for (unsigned bit = 0; bit < 8; ++bit) {
-            buffer damaged = good;
-            damaged[at] = static_cast<std::uint8_t>(damaged[at] ^ 1U << bit);
-            CAPTURE(at);
-            CAPTURE(bit);
-            try_it(damaged);
-        }
-}
-
-template <class Try>
-void every_lost_byte(const buffer& good, Try try_it)
-{
-    for (std::size_t at = 0; at < good.size(); ++at) {
-        buffer damaged = good;
-        damaged.erase(damaged.begin() + static_cast<std::ptrdiff_t>(at));
-        CAPTURE(at);
-        try_it(damaged);
-    }
-}
-
-template <class Try>
-void every_cut_off(const buffer& good, Try try_it)
-{
-    for (std::size_t size = 0; size < good.size(); ++size) {
-        CAPTURE(size);
-        try_it(buffer(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size)));
-    }
-}
-
 server_options options_of(const frame& f) { return {.own = is_server_number(f.station) ? f.station : station_id{1}}; }
 
 struct exchange {
@@ -110,18 +78,30 @@ std::vector<exchange> checked_exchanges()
 
 }  // namespace
 
-TEST_CASE("mewtocol faults: a request with a wrong bit, a byte short, or cut off is never executed")
+TEST_CASE("mewtocol faults: a request with a wrong bit, a byte short or too many, or cut off is never executed")
 {
     for (const exchange& e : checked_exchanges()) {
         CAPTURE(e.id);
         const auto options = options_of(e.asked);
-        const auto nothing = [&](const buffer& damaged) { CHECK(commands_in(damaged, options).empty()); };
         if (!std::holds_alternative<abort_transfer>(e.question))
             REQUIRE(commands_in(e.request, options) == std::vector{e.question});
-        every_wrong_bit(e.request, nothing);
-        every_lost_byte(e.request, nothing);
-        every_cut_off(e.request, nothing);
+        every_damage(e.request, [&](const buffer& damaged) { CHECK(commands_in(damaged, options).empty()); });
     }
+}
+
+TEST_CASE("mewtocol faults: a request that is refused is not executed when it is damaged")
+{
+    unsigned refused = 0;
+    for (const vector_row& row : com_vectors()) {
+        if (row.asked)
+            continue;
+        CAPTURE(row.id);
+        ++refused;
+        every_damage(with_cr(row.request), [&](const buffer& damaged) {
+            CHECK(commands_in(damaged, {.own = station_id{1}, .offered = fp7_commands}).empty());
+        });
+    }
+    CHECK(refused == 17);
 }
 
 TEST_CASE("mewtocol faults: a request behind a damaged one is executed")
@@ -148,17 +128,59 @@ TEST_CASE("mewtocol faults: a request that comes twice is executed twice")
     }
 }
 
-TEST_CASE("mewtocol faults: a response with a wrong bit, a byte short, or cut off is no answer")
+TEST_CASE("mewtocol faults: a response with a wrong bit, a byte short or too many, or cut off is no answer")
 {
     for (const exchange& e : checked_exchanges()) {
         if (e.response.size() == 1)
             continue;
         CAPTURE(e.id);
         REQUIRE(answer_in(e.response, e.asked, e.question) == std::optional{e.answer});
-        const auto nothing = [&](const buffer& damaged) { CHECK_FALSE(answer_in(damaged, e.asked, e.question)); };
-        every_wrong_bit(e.response, nothing);
-        every_lost_byte(e.response, nothing);
-        every_cut_off(e.response, nothing);
+        every_damage(e.response, [&](const buffer& damaged) { CHECK_FALSE(answer_in(damaged, e.asked, e.question)); });
+    }
+}
+
+TEST_CASE("mewtocol faults: a damaged error response is no answer")
+{
+    for (const vector_row& row : com_vectors()) {
+        if (row.asked || row.response.empty())
+            continue;
+        CAPTURE(row.id);
+        // Whatever was asked, an error is an answer; `!40` and `!43` let the client ask again.
+        const frame asked{.head = row.response[0] == '<' ? header::expansion : header::normal,
+                          .station = parse_frame(row.response)->station};
+        const command question = read_words{word_area::dt, 0, 1};
+        const buffer response = with_cr(row.response);
+        conversation talk(asked.head, asked.station, question);
+        talk.begin();
+        line_framer framer(1s);
+        framer.feed(t0, response);
+        const auto said = talk.hear(framer.next(t0).value());
+        CHECK((std::holds_alternative<mewtocol::response>(said) ||
+               std::holds_alternative<not_now<mewtocol::response>>(said)));
+        every_damage(response, [&](const buffer& damaged) { CHECK_FALSE(answer_in(damaged, asked, question)); });
+    }
+}
+
+TEST_CASE("mewtocol faults: a response that comes twice is the answer, and the line is busy a little longer")
+{
+    for (const exchange& e : checked_exchanges()) {
+        if (e.response.size() == 1)
+            continue;
+        CAPTURE(e.id);
+        client t = ask(e.question, e.asked.station, timing, e.asked.head);
+        t.next(t0);
+        t.sent(t0);
+        buffer twice = e.response;
+        twice.insert(twice.end(), e.response.begin(), e.response.end());
+        t.feed(t0 + 50ms, twice);
+        REQUIRE(is_done(t, t0 + 50ms));
+        REQUIRE(t.outcome().has_value());
+        CHECK(t.outcome().value() == *e.answer);
+        CHECK(t.attempts() == 1);
+        t.feed(t0 + 60ms, e.response);
+        CHECK(t.stray_bytes() == e.response.size());
+        CHECK(t.line_free_from() == t0 + 60ms + gap);
+        CHECK(t.outcome().value() == *e.answer);
     }
 }
 

@@ -172,12 +172,12 @@ TEST_CASE("plc link: a station whose writer ended is gone at once")
     linked_plc one("one", sends(1, 0, 2));
     one.link.received(t0, area(process("two"), sends(2, 2, 2), 9));
     one.said();
-    one.link.gone({"other", "two", "host", 2});
-    one.link.gone({"cell", "three", "host", 2});
-    one.link.gone({"cell", "two", "elsewhere", 2});
-    one.link.gone({"cell", "two", "host", 3});
+    one.link.gone(t0, {"other", "two", "host", 2});
+    one.link.gone(t0, {"cell", "three", "host", 2});
+    one.link.gone(t0, {"cell", "two", "elsewhere", 2});
+    one.link.gone(t0, {"cell", "two", "host", 3});
     CHECK(one.link.others() == std::vector<unsigned>{2});
-    one.link.gone({"cell", "two", "host", 2});
+    one.link.gone(t0, {"cell", "two", "host", 2});
     CHECK(one.link.others().empty());
     CHECK(one.said() == "warning: PLC link cell: station 2 of gateway two (host) is gone: its words stay as they were");
 }

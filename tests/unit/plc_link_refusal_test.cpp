@@ -92,7 +92,7 @@ TEST_CASE("plc link: the refused one is taken in when the other has gone, and sa
     const plc_link_area late = area(process("three"), sends(3, 15, 5), 9);
     c.link.received(t0, late);
     c.said();
-    c.link.gone({"cell", "two", "host", 2});
+    c.link.gone(t0, {"cell", "two", "host", 2});
     CHECK(c.word("WL15") == 2);  // not before it sends
     c.link.received(t0 + 1s, late);
     CHECK(c.word("WL15") == 9);
@@ -101,7 +101,7 @@ TEST_CASE("plc link: the refused one is taken in when the other has gone, and sa
     c.link.received(t0 + 1s, area(process("two", 6), sends(2, 10, 10), 2));
     CHECK(c.said() == "warning: PLC link cell: station 2 of gateway two (host) is refused: relay_first sends "
                       "WL10-WL19, which overlaps with WL15-WL19 of station 3");
-    c.link.gone({"cell", "two", "host", 2});
+    c.link.gone(t0, {"cell", "two", "host", 2});
     CHECK(c.said() == "");
     c.link.received(t0 + 2s, area(process("two", 7), sends(2, 10, 10), 2));
     CHECK(c.said() != "");

@@ -11,6 +11,7 @@ namespace plcgw::config {
 
 void check_plcs(check_context& c);
 void check_lines(check_context& c);
+void check_channel_users(check_context& c);
 void check_stations(check_context& c);
 void check_servers(check_context& c);
 void check_plc_links(check_context& c);

@@ -40,7 +40,7 @@ void check_general_purpose_line(check_context& c, std::size_t i, const line_conf
         c.complain(item("lines", i), "does nothing: give \"general_purpose\" with received, messages or sends");
 }
 
-void check_line(check_context& c, port_users& users, com_port_users& com_ports, std::size_t i, const line_config& l)
+void check_line(check_context& c, port_users& users, std::size_t i, const line_config& l)
 {
     const bool serial = l.protocol != line_protocol::modbus_tcp;
     if (c.is_sound(item("lines", i)))
@@ -48,7 +48,7 @@ void check_line(check_context& c, port_users& users, com_port_users& com_ports, 
     if (l.protocol == line_protocol::general_purpose)
         check_general_purpose_line(c, i, l);
     else if (l.role == line_role::server)
-        check_server_line(c, com_ports, i, l);
+        check_server_line(c, i, l);
     else if (!l.units.empty() && c.is_sound(item("lines", i)))
         c.complain(item("lines", i, "units"), "stands at a client line: its stations are listed under \"stations\"");
     if (is_mewtocol(l.protocol))
@@ -71,9 +71,8 @@ void check_line(check_context& c, port_users& users, com_port_users& com_ports, 
 void check_lines(check_context& c)
 {
     port_users users;
-    com_port_users com_ports;
     for (std::size_t i = 0; i < c.config.lines.size(); ++i)
-        check_line(c, users, com_ports, i, c.config.lines[i]);
+        check_line(c, users, i, c.config.lines[i]);
 }
 
 }  // namespace plcgw::config

@@ -40,23 +40,9 @@ void check_unit_plc(check_context& c, const std::string& at, const unit_config& 
         c.complain(at + "/plc", "is a " + std::string(model->name) + ", which does not speak MEWTOCOL: an FP7 does");
 }
 
-// An FP7's port has one protocol and one station number, which it shows.
-void check_com_port(check_context& c, com_port_users& users, const std::string& at, const unit_config& unit,
-                    const std::string& line)
-{
-    const plc::model* const model = c.model_of(unit.plc);
-    if (model == nullptr || !model->mewtocol)
-        return;
-    const auto [taken, is_new] = users.try_emplace({unit.plc, unit.channel}, line);
-    if (!is_new)
-        c.complain(at + "/channel", "is COM." + std::to_string(unit.channel) + " of \"" + unit.plc +
-                                        "\", which line \"" + taken->second +
-                                        "\" stands for already: give another one");
-}
-
 }  // namespace
 
-void check_server_line(check_context& c, com_port_users& com_ports, std::size_t i, const line_config& l)
+void check_server_line(check_context& c, std::size_t i, const line_config& l)
 {
     if (l.protocol == line_protocol::modbus_tcp)
         c.complain(item("lines", i, "role"), "is server, but a MODBUS TCP server stands under \"modbus_tcp\"");
@@ -69,8 +55,6 @@ void check_server_line(check_context& c, com_port_users& com_ports, std::size_t 
             c.complain(at + "/line", "forwards MEWTOCOL, which is not possible: give \"plc\"");
         check_number(c, at, l.units[u].unit, l.protocol);
         check_unit_plc(c, at, l.units[u], l.protocol);
-        if (c.is_sound(at))
-            check_com_port(c, com_ports, at, l.units[u], l.name);
     }
 }
 
