@@ -34,9 +34,12 @@ line_style style_of(quality q)
 {
     switch (q) {
     case quality::good: return line_style::plain;
-    case quality::stale: return line_style::warning;
+    case quality::stale:
+    case quality::substituted:
+    case quality::out_of_limits: return line_style::warning;
     case quality::comm_error:
-    case quality::device_error: return line_style::error;
+    case quality::device_error:
+    case quality::no_value: return line_style::error;
     case quality::never_read: break;
     }
     return line_style::old;

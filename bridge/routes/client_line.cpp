@@ -1,5 +1,7 @@
 #include "bridge/routes/client_line.hpp"
 
+#include "bridge/routes/route_status.hpp"
+
 #include <algorithm>
 
 namespace plcgw {
@@ -7,7 +9,6 @@ namespace {
 
 constexpr int periods_until_stale = 3;
 constexpr duration least_longest_delay = std::chrono::seconds(5);
-constexpr duration refused_write_pause = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -20,19 +21,6 @@ client_line::client_line(std::string name, std::vector<station> stations, durati
         const modbus::serial_options& each = stations_[i].timing;
         schedule_.set_longest_delay(i, std::max(least_longest_delay, (each.retries + 2) * each.response_timeout));
     }
-}
-
-void client_line::add_route(route r, std::size_t station, duration period)
-{
-    if (r.way == direction::read)
-        schedule_.add_poll(station, period);
-    else
-        schedule_.add_write(station);
-    r.words.resize((bits_of(r) + 15) / 16);
-    row& added = routes_.emplace_back();
-    added.content = std::move(r);
-    added.station = station;
-    added.period = period;
 }
 
 std::optional<forward_ticket> client_line::forward(station_number unit, modbus::request request,
@@ -150,16 +138,21 @@ void client_line::answered(const question& q, const station_answer& answer, time
 
     of.answered = true;
     if (const auto refused = refusal_in(answer)) {
-        set_quality(of, quality::device_error, refused->reason);
-        if (of.content.way == direction::write && refused->may_pass)
-            schedule_.ask(turn.item, now + refused_write_pause);
+        ++reading(of).content.errors;
+        set_quality(of, quality::device_error, refused->reason, refused->code);
+        if (writes(of.content.way))
+            was_refused(of, q, now, refused->may_pass);
         return;
     }
-    const std::vector<std::uint16_t> words_before = of.content.words;
-    store(of.content, q.asked, answer);
+    if (!is_outdated(of, q)) {
+        const std::vector<std::uint16_t> words_before = of.content.words;
+        store(of.content, q.asked, answer);
+        was_stored(of, q, now);
+        of.changed = of.changed || of.content.words != words_before;
+    }
     of.content.source = wall;
     of.good_at = now;
-    of.changed = of.changed || of.content.words != words_before;
+    ++of.content.answers;
     set_quality(of, quality::good, {});
 }
 
@@ -177,9 +170,11 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
     schedule_.finished(turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
                        late);
     const std::string reason = reason_of(q.asked, why);
-    set_quality(of, quality::comm_error, reason);
+    const auto code = static_cast<std::uint16_t>(code_of(why));
+    ++reading(of).content.errors;
+    set_quality(of, quality::comm_error, reason, code);
     if (before != health::down && schedule_.state_of(of.station) == health::down)
-        station_down(of.station, reason);
+        station_down(of.station, reason, code);
 }
 
 void client_line::interrupted(const question& q)
@@ -193,28 +188,9 @@ void client_line::interrupted(const question& q)
 void client_line::port_lost(const std::string& why)
 {
     for (row& each : routes_)
-        lose(each, why);
+        lose(each, why, static_cast<std::uint16_t>(no_answer::no_port));
     forwards_.answer_all(errc::port_absent);
     port_open_ = false;
-}
-
-// A value that nobody can renew now. What is only written is as good as it was.
-void client_line::lose(row& of, const std::string& why)
-{
-    if (of.content.way == direction::read)
-        set_quality(of, quality::comm_error, why);
-}
-
-bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
-{
-    bool due = false;
-    for (std::size_t i = 0; i < routes_.size(); ++i) {
-        if (routes_[i].content.way != direction::write || !touches(routes_[i].content, plc, changed))
-            continue;
-        schedule_.ask(i);
-        due = true;
-    }
-    return due;
 }
 
 std::vector<sample> client_line::take_samples(time_point now)
@@ -223,7 +199,7 @@ std::vector<sample> client_line::take_samples(time_point now)
     for (row& each : routes_) {
         age(each, now);
         const bool confirmed = each.answered && now - each.said_at >= longest_silence_;
-        if (!each.changed && !confirmed)
+        if (each.half || (!each.changed && !confirmed))
             continue;
         each.changed = each.answered = false;
         each.said_at = now;
@@ -237,7 +213,8 @@ void client_line::age(row& of, time_point now)
 {
     const bool polled = of.content.way == direction::read;
     if (polled && of.content.state == quality::good && now - of.good_at > periods_until_stale * of.period)
-        set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods");
+        set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods",
+                    static_cast<std::uint16_t>(no_answer::not_renewed));
 }
 
 void client_line::say_everything()
@@ -246,12 +223,20 @@ void client_line::say_everything()
         each.changed = true;
 }
 
+bool client_line::is_up(std::size_t number) const
+{
+    const route& of = routes_[number].content;
+    return of.state == quality::good ||
+           (writes(of.way) && of.state == quality::never_read);  // had nothing to write yet
+}
+
 std::size_t client_line::routes_up() const
 {
-    return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(), [](const row& each) {
-        const bool idle_write = each.content.way == direction::write && each.content.state == quality::never_read;
-        return each.content.state == quality::good || idle_write;
-    }));
+    std::size_t up = 0;
+    for (std::size_t i = 0; i < routes_.size(); ++i)
+        if (!is_half(i) && is_up(i))
+            ++up;
+    return up;
 }
 
 void client_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
@@ -266,9 +251,11 @@ void client_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place a
     }
 }
 
-void client_line::set_quality(row& of, quality state, const std::string& reason)
+void client_line::set_quality(row& of, quality state, const std::string& reason, std::uint16_t code)
 {
     route& r = of.content;
+    if (r.state == quality::substituted && state == quality::comm_error)
+        state = r.state;  // still lost
     if (state == quality::device_error && (r.state != state || r.reason != reason))
         note(line_event::severity::warning,
              "line " + name_ + ", route " + r.name + ": " + label(stations_[of.station]) + " refuses: " + reason);
@@ -277,15 +264,16 @@ void client_line::set_quality(row& of, quality state, const std::string& reason)
     of.changed = of.changed || r.state != state;
     r.state = state;
     r.reason = reason;
+    r.reason_code = code;
 }
 
-void client_line::station_down(std::size_t index, const std::string& reason)
+void client_line::station_down(std::size_t index, const std::string& reason, std::uint16_t code)
 {
     note(line_event::severity::warning,
          label(stations_[index]) + " does not answer (" + reason + "): its values are kept, it is probed from now on");
     for (row& each : routes_)
         if (each.station == index)
-            lose(each, reason);
+            lose(each, reason, code);
 }
 
 std::string client_line::label(const station& of) const

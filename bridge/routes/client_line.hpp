@@ -29,7 +29,8 @@ public:
     client_line(std::string name, std::vector<station> stations, duration longest_silence,
                 const modbus::serial_options& timing = {});
 
-    void add_route(route r, std::size_t station, duration period);
+    // The row's number. A route that reads and writes has the next one, too, for its writing half.
+    std::size_t add_route(route r, std::size_t station, duration period);
     void start(time_point now) { schedule_.start(now); }
 
     // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent or the station
@@ -81,14 +82,25 @@ public:
     // Somebody drained this change of a memory. True when a route is due to write it to its station.
     bool memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
 
+    // Somebody wrote devices that are watched, though nothing may have changed: periodic writes begin. As above.
+    bool memory_written();
+
     // Routes whose words or quality changed since the last call, and those not said for the longest silence.
     std::vector<sample> take_samples(time_point now);
     void say_everything();  // the next take_samples() gives all routes: whoever got them is new
     std::vector<line_event> take_events() { return std::exchange(events_, {}); }
 
     const std::string& name() const { return name_; }
-    std::size_t routes_total() const { return routes_.size(); }
+    std::size_t routes_total() const { return routes_.size() - halves_; }
     std::size_t routes_up() const;  // of good quality, and those that had nothing to write yet
+
+    // By row, as add_route() numbered them.
+    std::size_t rows() const { return routes_.size(); }
+    const route& route_at(std::size_t number) const { return routes_[number].content; }
+    std::size_t station_at(std::size_t number) const { return routes_[number].station; }
+    bool is_half(std::size_t number) const { return routes_[number].half; }  // the writing half of a route
+    bool is_up(std::size_t number) const;
+    health health_of(std::size_t station) const { return schedule_.state_of(station); }
 
     // The worst quality and the oldest source among the read routes that fill these devices; good when there are none.
     void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;
@@ -102,18 +114,32 @@ private:
         bool answered = false;  // since the last sample
         bool changed = true;    // since the last sample: the first one says "never read"
         time_point said_at{};
+
+        // Of a route that reads and writes: its other half, and whether this is the one that writes.
+        std::optional<std::size_t> partner{};
+        bool half = false;
+        std::vector<std::uint16_t> agreed{};  // of the reading half: what memory and station both had last
+        time_point written_at{};              // of the reading half: an answer to an older question is old
+
+        std::optional<plc::memory::watch> first_write{};  // of a periodic write that did not begin yet
+        time_point next_write{};
     };
 
-    void set_quality(row& of, quality state, const std::string& reason);
+    void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
+    row& reading(row& of) { return of.half ? routes_[*of.partner] : of; }
+    bool is_outdated(const row& of, const question& q) const;
+    void was_stored(row& of, const question& q, time_point now);
+    void was_refused(row& of, const question& q, time_point now, bool may_pass);
+    void plan_next_write(row& of, const question& q, time_point now, bool is_due);
     std::optional<question> next_poll(time_point now);
     std::optional<question> next_forward(time_point now);
     const station* find(station_number unit) const;
     std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;
     void learn_delimiter(const question& q, const station_answer& answer);
     void doubt_delimiter(station_number unit);
-    void lose(row& of, const std::string& why);
+    void lose(row& of, const std::string& why, std::uint16_t code);
     void age(row& of, time_point now);
-    void station_down(std::size_t index, const std::string& reason);
+    void station_down(std::size_t index, const std::string& reason, std::uint16_t code);
     void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
     std::string label(const station& of) const;
 
@@ -122,6 +148,7 @@ private:
     std::vector<row> routes_;  // numbered like the schedule's items
     schedule schedule_;
     forward_queue forwards_;
+    std::size_t halves_ = 0;
     bool forwarded_last_ = false;
     bool port_open_ = false;
     modbus::serial_options timing_;

@@ -23,13 +23,15 @@ void check(const gateway_config& c, const located_json& file, const std::string&
     unique_names(context, "lines", c.lines);
     unique_names(context, "stations", c.stations);
     unique_names(context, "routes", c.routes);
+    unique_names(context, "points", c.points);
     check_plcs(context);
     check_lines(context);
     check_stations(context);
     device_check devices(context);
-    occupied_devices occupied;
-    check_routes(context, devices, occupied);
-    check_messages(context, devices, occupied);
+    device_users users;
+    check_routes(context, devices, users);
+    check_messages(context, devices, users.filled);
+    check_points(context, devices, users);
     check_servers(context);
     check_plc_links(context);
     check_dds(context);
