@@ -99,11 +99,7 @@ memory::watch memory::watch_writes(place p, std::size_t bits)
     return watches_.size() - 1;
 }
 
-bool memory::take_written(watch w)
-{
-    written_ = false;
-    return std::exchange(watches_[w].written, false);
-}
+bool memory::take_written(watch w) { return std::exchange(watches_[w].written, false); }
 
 void memory::note_write(place p, std::size_t bits)
 {

@@ -4,6 +4,7 @@
 #include "bridge/plc/model.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace plcgw::plc {
@@ -54,8 +55,8 @@ public:
     // Writes count although the value stays the same: for who has to know whether somebody still writes there.
     using watch = std::size_t;
     watch watch_writes(place p, std::size_t bits);
-    bool take_written(watch w);  // since the last call
-    bool has_written() const { return written_; }
+    bool take_written(watch w);                                     // since the last call
+    bool take_written() { return std::exchange(written_, false); }  // any of the watched devices
 
     // Devices that nobody but the PLC sets: show_word() and show_bit() do, the others pass over them.
     void set_protected(place p, std::size_t bits, bool on);

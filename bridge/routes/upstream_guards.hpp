@@ -22,7 +22,7 @@ public:
     // Who never wrote since then is missed after the longest silence, too.
     void start(time_point now);
 
-    // Somebody wrote to a PLC: memory::has_written(). Each write counts, also of the same value.
+    // Somebody wrote to a PLC: memory::take_written(). Each write counts, also of the same value.
     void written(time_point now);
 
     void look(time_point now);   // puts safe values where nobody wrote for too long
