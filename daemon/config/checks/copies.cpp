@@ -35,7 +35,7 @@ void copy_check::add(std::size_t i, const route_config& r)
     if (!c_.is_sound(row))
         return;
     if (r.from.plc.empty() || r.from.device.empty()) {
-        c_.complain(row + "/from", std::string("has no \"") + (r.from.plc.empty() ? "plc" : "device") +
+        c_.complain(row + "/from", std::string("lacks \"") + (r.from.plc.empty() ? "plc" : "device") +
                                        "\": \"from\" needs a PLC and its first device");
         return;
     }

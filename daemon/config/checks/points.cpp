@@ -6,7 +6,7 @@ namespace {
 void check_text(check_context& c, const std::string& row, const point_config& p)
 {
     if (p.characters == 0)
-        c.complain(row, "has no \"characters\": a text needs room");
+        c.complain(row, "lacks \"characters\": a text needs room");
     if (turns_registers(p.order))
         c.complain(row + "/order",
                    "turns registers round, but a text knows only ABCD, first character in the high byte, "
@@ -53,7 +53,7 @@ void check_type(check_context& c, const std::string& row, const point_config& p,
         c.complain(row + "/bit", p.type != value_type::boolean ? "belongs to the type bool"
                                                                : "stands at a device that is a bit itself");
     if (p.type == value_type::boolean && !p.bit && !is_bit_device)
-        c.complain(row, "has no \"bit\": which one of the word, 0 = lowest");
+        c.complain(row, "lacks \"bit\": which one of the word, 0 = lowest");
 }
 
 void check_users(check_context& c, const std::string& row, const point_config& p, plc::place at, std::size_t bits,

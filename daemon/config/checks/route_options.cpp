@@ -53,11 +53,11 @@ void check_status(check_context& c, device_check& devices, device_users& users, 
     if (!c.is_sound(row) || (s.device.empty() && s.plc.empty()))
         return;
     if (s.device.empty()) {
-        c.complain(row + "/status", "has no \"device\": the first of the status words");
+        c.complain(row + "/status", "lacks \"device\": the first of the status words");
         return;
     }
     if (plc.empty()) {
-        c.complain(row + "/status", "has no \"plc\": Name of the simulated PLC");
+        c.complain(row + "/status", "lacks \"plc\": the PLC that shows it");
         return;
     }
     const std::string at = row + "/status/device";

@@ -15,7 +15,7 @@ void check_route(check_context& c, device_check& devices, device_users& users, s
         return;
     }
     if (r.station.empty())
-        c.complain(item("routes", i), "has no \"station\": Name of the station, or \"from\": devices of a PLC");
+        c.complain(item("routes", i), "lacks \"station\": the name of a station, or \"from\": devices of a PLC");
     if (from != nullptr && from->unit == 0 && reads(r.way))
         c.complain(item("routes", i, "station"),
                    "is unit 0, the broadcast: nobody answers, only write routes can use it");
