@@ -157,8 +157,8 @@ std::vector<point_sample> point_table::take_samples(time_point now, std::size_t 
         s.forced = false;
         s.said = made.value;
         s.said_state = made.state;
-        if (p.longest_silence != duration{})
-            silent_until_[index] = now + p.longest_silence;
+        if (p.longest_silence != duration{} && !std::exchange(s.first, false))
+            silent_until_[index] = now + p.longest_silence;  // of the first one start() chose it
         samples.push_back(std::move(made));
     }
     return samples;

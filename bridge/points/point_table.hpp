@@ -69,6 +69,7 @@ private:
         wall_time changed{};  // the memory, when nobody is known to fill it
         bool waits = false;
         bool forced = true;
+        bool first = true;
     };
     struct run {
         std::size_t first;

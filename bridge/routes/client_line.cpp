@@ -269,11 +269,16 @@ void client_line::set_quality(row& of, quality state, const std::string& reason,
 
 void client_line::station_down(std::size_t index, const std::string& reason, std::uint16_t code)
 {
-    note(line_event::severity::warning,
-         label(stations_[index]) + " does not answer (" + reason + "): its values are kept, it is probed from now on");
-    for (row& each : routes_)
-        if (each.station == index)
-            lose(each, reason, code);
+    bool replaced = false;
+    for (row& each : routes_) {
+        if (each.station != index)
+            continue;
+        lose(each, reason, code);
+        replaced = replaced || each.content.state == quality::substituted;
+    }
+    note(line_event::severity::warning, label(stations_[index]) + " does not answer (" + reason + "): its values are " +
+                                            (replaced ? "kept or replaced as on_loss says" : "kept") +
+                                            ", it is probed from now on");
 }
 
 std::string client_line::label(const station& of) const

@@ -127,6 +127,7 @@ private:
 
     void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
     row& reading(row& of) { return of.half ? routes_[*of.partner] : of; }
+    bool is_to_be_written(const row& of) const;
     bool is_outdated(const row& of, const question& q) const;
     void was_stored(row& of, const question& q, time_point now);
     void was_refused(row& of, const question& q, time_point now, bool may_pass);

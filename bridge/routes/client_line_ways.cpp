@@ -39,12 +39,19 @@ std::size_t client_line::add_route(route r, std::size_t station, duration period
     return index;
 }
 
-// A read that must not undo what somebody wrote meanwhile: it was asked before, or that is still to be written.
-bool client_line::is_outdated(const row& of, const question& q) const
+// Somebody changed the memory of a route that reads and writes, and the station does not have that yet.
+bool client_line::is_to_be_written(const row& of) const
 {
     if (!of.partner || of.half)
         return false;
-    return q.asked_at < of.written_at || words_in_memory(of.content) != of.agreed;
+    const bool may_be_due = schedule_.is_wanted(*of.partner) || of.content.plc->memory().has_changes();
+    return may_be_due && words_in_memory(of.content) != of.agreed;
+}
+
+// A read that must not undo what somebody wrote meanwhile.
+bool client_line::is_outdated(const row& of, const question& q) const
+{
+    return (of.partner && !of.half && q.asked_at < of.written_at) || is_to_be_written(of);
 }
 
 void client_line::was_stored(row& of, const question& q, time_point now)
@@ -88,8 +95,7 @@ void client_line::lose(row& of, const std::string& why, std::uint16_t code)
     route& r = of.content;
     if (!reads(r.way))
         return;
-    const bool is_to_be_written = of.partner && words_in_memory(r) != of.agreed;
-    if (r.substitute.empty() || is_to_be_written) {
+    if (r.substitute.empty() || is_to_be_written(of)) {
         set_quality(of, quality::comm_error, why, code);
         return;
     }
