@@ -27,6 +27,11 @@ public:
         if (publisher_)
             publisher_->publish(s);
     }
+    void publish(const point_sample& point)
+    {
+        if (publisher_)
+            publisher_->publish(point);
+    }
     void publish(const serial_message& message)
     {
         if (publisher_)

@@ -29,6 +29,32 @@ json json_of(const received_block& e)
             {"seq", e.seq}};
 }
 
+json json_of(const received_point& e)
+{
+    const point_value& v = e.value;
+    json value;
+    if (v.kind == point_kind::boolean)
+        value = v.integer != 0;
+    else if (v.kind == point_kind::integer)
+        value = v.integer;
+    else if (v.kind == point_kind::real)
+        value = v.real;
+    else if (v.kind == point_kind::text)
+        value = v.text;
+    return {{"event", "point"},
+            {"gateway", e.gateway},
+            {"member", e.member},
+            {"name", e.name},
+            {"kind", to_string(v.kind)},
+            {"value", std::move(value)},
+            {"unit", e.unit},
+            {"quality", to_string(e.state)},
+            {"quality_code", e.code},
+            {"source_time", e.source == wall_time::never ? json() : json(iso_time(e.source))},
+            {"source_ns", static_cast<std::int64_t>(e.source)},
+            {"seq", e.seq}};
+}
+
 json json_of(const received_status& e)
 {
     const auto& s = e.status;
@@ -66,6 +92,11 @@ json json_of(const gone_block& e)
 {
     return {{"event", "gone"}, {"gateway", e.gateway}, {"route", e.route},
             {"area", e.area},  {"first", e.first},     {"reason", to_string(e.reason)}};
+}
+
+json json_of(const gone_point& e)
+{
+    return {{"event", "gone"}, {"gateway", e.gateway}, {"point", e.name}, {"reason", to_string(e.reason)}};
 }
 
 json json_of(const gone_gateway& e)

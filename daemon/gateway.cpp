@@ -27,19 +27,12 @@ std::string_view cure_of(boost::system::error_code ec)
     return "`ss -ltnp` shows who uses the port";
 }
 
-void log_event(const line_event& event)
-{
-    if (event.level == line_event::severity::warning)
-        log::warning("{}", event.text);
-    else
-        log::info("{}", event.text);
-}
-
 }  // namespace
 
 gateway::gateway(asio::io_context& loop, const config::loaded& from)
     : loop_(loop), config_(from.config), started_(wall_now()), fp7_ports_(loop, [this] { settle_memory(); }),
-      dds_(loop, config_, from.hash), second_(loop), watchdog_(loop)
+      upstream_(loop, [this] { settle_memory(); }), dds_(loop, config_, from.hash),
+      blocks_(lines_, message_lines_, dds_), points_(loop, dds_), second_(loop), watchdog_(loop)
 {
     make_plcs(from.folder);
     make_lines();
@@ -47,6 +40,8 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_servers();
     make_blocks();
     make_plc_links();
+    make_copies();
+    make_points();
 }
 
 void gateway::make_plcs(const std::string& folder)
@@ -141,15 +136,30 @@ void gateway::make_servers()
 
 void gateway::make_blocks()
 {
-    for (const block_config& each : config_.dds.blocks) {
-        plc_block block;
-        block.plc = find_plc(each.plc);
-        block.head = *plc::parse_device(each.device, block.plc->model().names);
-        block.at = *block.plc->memory().find(block.head);
-        block.count = each.count;
-        block.name = each.plc + "." + plc::to_string(block.head, block.plc->model().names);
-        blocks_.push_back({std::move(block), true});
+    for (const block_config& each : config_.dds.blocks)
+        blocks_.add(each, *find_plc(each.plc));
+}
+
+void gateway::make_copies()
+{
+    const auto plc = [this](const std::string& name) -> plc::simulated_plc& { return *find_plc(name); };
+    for (const route_config& each : config_.routes) {
+        if (!each.from.plc.empty())
+            copies_.add(make_copy(each, plc));
+        else if (each.upstream.longest_silence.count() != 0)
+            upstream_.add(each, plc);
     }
+}
+
+void gateway::make_points()
+{
+    for (const auto& line : lines_)
+        points_.add_sources(line->routes);
+    for (const auto& line : message_lines_)
+        points_.add_sources(line->content);
+    points_.add_sources(copies_);
+    for (const point_config& each : config_.points)
+        points_.add(each, *find_plc(each.plc));
 }
 
 void gateway::make_plc_links()
@@ -176,6 +186,8 @@ bool gateway::start()
         asio::co_spawn(loop_, program->run(), asio::detached);
     if (links_)
         links_->start();
+    upstream_.start();
+    points_.start();
     asio::co_spawn(loop_, every_second(), asio::detached);
     if (const auto period = service::watchdog_period())
         asio::co_spawn(loop_, keep_watchdog(*period), asio::detached);
@@ -216,93 +228,12 @@ nlohmann::json gateway::command(const nlohmann::json& what)
     return reply;
 }
 
-void gateway::settle(running_line& line)
-{
-    for (const line_event& event : line.routes.take_events())
-        log_event(event);
-    line.gate.deliver();
-    settle_memory();
-    say(line.routes.take_samples(now()));
-}
-
-void gateway::settle(message_line& line)
-{
-    settle_memory();
-    const std::vector<sample> samples = line.content.take_samples(now());
-    for (const line_event& event : line.content.take_events())
-        log_event(event);
-    for (const serial_message& each : line.content.take_messages())
-        dds_.publish(each);
-    say(samples);
-}
-
-void gateway::say(const std::vector<sample>& samples)
-{
-    for (const sample& each : samples)
-        dds_.publish(each);
-    if (samples.empty())
-        return;
-    for (running_block& block : blocks_)  // a route's quality is that of the block over its devices, too
-        block.changed = block.changed || sample_now(block).state != block.said;
-    publish_blocks();
-}
-
-void gateway::settle_memory()
-{
-    fp7_ports_.look();
-    const bool changed_any =
-        std::any_of(plcs_.begin(), plcs_.end(), [](const auto& plc) { return plc->memory().has_changes(); });
-    for (const auto& plc : plcs_) {
-        for (const plc::change& changed : plc->memory().take_changes()) {
-            for (const auto& line : lines_)
-                if (line->routes.memory_changed(*plc, changed))
-                    line->driver->wake();
-            for (const auto& line : message_lines_)
-                if (line->content.memory_changed(*plc, changed, now()))
-                    line->wake();
-            for (running_block& block : blocks_)
-                block.changed = block.changed || touches(block.content, *plc, changed);
-            if (links_)
-                links_->memory_changed(*plc, changed);
-        }
-    }
-    if (!changed_any)
-        return;
-    if (links_)
-        links_->send();
-    for (const auto& program : programs_)
-        program->look();
-    publish_blocks();
-}
-
-void gateway::publish_blocks()
-{
-    if (!dds_.is_open())
-        return;
-    for (running_block& block : blocks_) {
-        if (!std::exchange(block.changed, false))
-            continue;
-        const sample now_in_it = sample_now(block);
-        block.said = now_in_it.state;
-        dds_.publish(now_in_it);
-    }
-}
-
-sample gateway::sample_now(const running_block& block) const
-{
-    sample made = sample_of(block.content, wall_now());
-    for (const auto& line : lines_)
-        line->routes.worsen(made, *block.content.plc, block.content.at, bits_of(block.content));
-    for (const auto& line : message_lines_)
-        line->content.worsen(made, *block.content.plc, block.content.at, bits_of(block.content));
-    return made;
-}
-
 void gateway::publish_everything()
 {
-    for (running_block& block : blocks_)
-        block.changed = true;
-    publish_blocks();
+    blocks_.say_everything();
+    blocks_.publish();
+    points_.say_everything();
+    points_.publish();
     for (const auto& line : lines_) {
         line->routes.say_everything();
         for (const sample& each : line->routes.take_samples(now()))
@@ -319,6 +250,11 @@ asio::awaitable<void> gateway::every_second()
     for (;;) {
         if (dds_.open())
             publish_everything();
+        for (const auto& line : lines_)
+            line->statuses.show(wall_now());
+        settle_memory();
+        points_.keep_silences();
+        points_.publish();
         show_status();
         second_.expires_after(status_period);
         co_await second_.async_wait(no_throw);

@@ -1,16 +1,18 @@
 // Everything that runs, made from a configuration: PLCs, lines and servers on one event loop.
 #pragma once
 
-#include "bridge/plc_block.hpp"
+#include "daemon/blocks.hpp"
 #include "daemon/config/read.hpp"
 #include "daemon/control_server.hpp"
 #include "daemon/dds_link.hpp"
 #include "daemon/message_line.hpp"
 #include "daemon/plc_links.hpp"
 #include "daemon/plc_program.hpp"
+#include "daemon/points.hpp"
 #include "daemon/running_line.hpp"
 #include "daemon/server_line.hpp"
 #include "daemon/tcp_server.hpp"
+#include "daemon/upstream.hpp"
 
 #include <memory>
 
@@ -26,18 +28,14 @@ public:
     bool start();  // false when a server could not listen: said in the log
 
 private:
-    struct running_block {
-        plc_block content;
-        bool changed = true;
-        quality said = quality::good;
-    };
-
     void make_plcs(const std::string& folder);
     void make_lines();
     void make_message_line(const line_config& line);
     void make_programs(const std::string& folder);
     void make_servers();
     void make_blocks();
+    void make_copies();
+    void make_points();
     void make_plc_links();
     plc::simulated_plc* find_plc(const std::string& name);
     running_line* find_line(const std::string& name);
@@ -50,10 +48,10 @@ private:
     void settle(message_line& line);
     void say(const std::vector<sample>& samples);
     void settle_memory();
+    void note_writes();
+    bool drain_changes();  // true when there were some
 
     void publish_everything();
-    void publish_blocks();
-    sample sample_now(const running_block& block) const;
     asio::awaitable<void> every_second();  // status, and DDS again where it failed
     asio::awaitable<void> keep_watchdog(std::chrono::microseconds period);
     void show_status();
@@ -69,9 +67,12 @@ private:
     std::vector<std::unique_ptr<message_line>> message_lines_;
     std::vector<std::unique_ptr<plc_program>> programs_;
     std::vector<std::unique_ptr<tcp_server>> servers_;
-    std::vector<running_block> blocks_;
+    plc_copies copies_;
+    upstream_watch upstream_;
     std::unique_ptr<plc_links> links_;  // of PLCs; null without any
     dds_link dds_;
+    published_blocks blocks_;
+    published_points points_;
     std::optional<control_server> control_;
     asio::steady_timer second_;
     asio::steady_timer watchdog_;

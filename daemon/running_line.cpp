@@ -38,6 +38,14 @@ std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const li
     return std::make_unique<serial_line>(loop, line, routes, std::move(settle));
 }
 
+status_place place_of(const status_config& from, const std::string& plc_name, const find_plc& plc)
+{
+    plc::simulated_plc& in = plc(plc_name);
+    return {&in, *in.memory().find(*plc::parse_device(from.device, in.model().names)), from.order};
+}
+
+}  // namespace
+
 route make_route(const route_config& from, const find_plc& plc)
 {
     route r;
@@ -50,10 +58,35 @@ route make_route(const route_config& from, const find_plc& plc)
         r.there = *mewtocol::parse_device(from.source);
     r.count = static_cast<std::uint16_t>(from.count);
     r.way = from.way;
+    if (from.on_loss != loss_policy::keep)
+        r.substitute = packed_values(r, from.on_loss == loss_policy::zero ? std::vector<unsigned>{0} : from.loss_value);
     return r;
 }
 
-}  // namespace
+plc_copy make_copy(const route_config& from, const find_plc& plc)
+{
+    plc::simulated_plc& source = plc(from.from.plc);
+    plc::simulated_plc& target = plc(from.plc);
+    const plc::device head = *plc::parse_device(from.from.device, source.model().names);
+    return {from.name,
+            &source,
+            *source.memory().find(head),
+            &target,
+            *target.memory().find(*plc::parse_device(from.device, target.model().names)),
+            plc::is_bit_kind(head.kind) ? from.count : std::size_t{16} * from.count};
+}
+
+std::vector<std::uint16_t> packed_values(const route& of, const std::vector<unsigned>& values)
+{
+    std::vector<std::uint16_t> words((bits_of(of) + 15) / 16);
+    for (std::size_t i = 0; i < of.count; ++i) {
+        const unsigned value = values.size() == 1 ? values.front() : values[i];
+        const std::size_t word = is_bits(of.there) ? i / 16 : i;
+        const std::size_t shift = is_bits(of.there) ? i % 16 : 0;
+        words[word] = static_cast<std::uint16_t>(words[word] | value << shift);
+    }
+    return words;
+}
 
 modbus::serial_options timing_of(const line_config& line)
 {
@@ -84,9 +117,16 @@ running_line::running_line(boost::asio::io_context& loop, const gateway_config& 
     for (const station_config& each : all.stations) {
         if (each.line != line.name)
             continue;
-        for (const route_config& from : all.routes)
-            if (from.station == each.name)
-                routes.add_route(make_route(from, plc), station, from.period);
+        for (const route_config& from : all.routes) {
+            if (from.station != each.name)
+                continue;
+            const std::size_t row = routes.add_route(make_route(from, plc), station, from.period);
+            if (!from.status.device.empty())
+                statuses.add_route(row,
+                                   place_of(from.status, from.status.plc.empty() ? from.plc : from.status.plc, plc));
+        }
+        if (!each.status.device.empty())
+            statuses.add_station(station, place_of(each.status, each.status.plc, plc));
         ++station;
     }
 }

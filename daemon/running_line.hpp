@@ -1,6 +1,8 @@
 // A client line at work: its routes, what carries its requests, and the way in for others who ask its stations.
 #pragma once
 
+#include "bridge/routes/plc_copies.hpp"
+#include "bridge/routes/route_status.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/forward_gate.hpp"
 #include "daemon/line_driver.hpp"
@@ -23,9 +25,17 @@ public:
 
     const line_config config;
     client_line routes;
+    status_board statuses{routes};  // of these, as words of the PLCs
     const std::unique_ptr<line_driver> driver;
     forward_gate gate;
 };
+
+route make_route(const route_config& from, const find_plc& plc);  // of a station
+
+plc_copy make_copy(const route_config& from, const find_plc& plc);  // of a PLC
+
+// One value for all registers or bits of a route, or one for each, packed as its words.
+std::vector<std::uint16_t> packed_values(const route& of, const std::vector<unsigned>& values);
 
 // How a line is spoken to: of a station, or of any unit that is none.
 modbus::serial_options timing_of(const line_config& line);

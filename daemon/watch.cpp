@@ -42,6 +42,10 @@ const std::string* route_of(const dds_event& event)
         return &block->value.route;
     if (const auto* gone = std::get_if<gone_block>(&event))
         return &gone->route;
+    if (const auto* point = std::get_if<received_point>(&event))
+        return &point->name;
+    if (const auto* gone = std::get_if<gone_point>(&event))
+        return &gone->name;
     if (const auto* message = std::get_if<received_message>(&event))
         return &message->value.line;
     return nullptr;
@@ -153,7 +157,7 @@ private:
     bool dirty_ = false;  // the table on the screen is not the latest
     bool heard_ = false;  // anything, filters aside
     bool hinted_ = false;
-    unsigned samples_ = 0;  // of registers, after the filters
+    unsigned samples_ = 0;  // of registers and points, after the filters
 };
 
 bool watcher::wanted(const dds_event& event) const
@@ -181,7 +185,7 @@ bool watcher::take()
             continue;
         if (!show(event))
             return false;
-        samples_ += std::holds_alternative<received_block>(event);
+        samples_ += std::holds_alternative<received_block>(event) || std::holds_alternative<received_point>(event);
         if (enough())
             break;
     }

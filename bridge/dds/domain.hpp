@@ -58,6 +58,7 @@ qos_ptr state_qos();  // RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1: both sides of e
 qos_ptr event_qos();  // RELIABLE, VOLATILE, KEEP_LAST 256: writers of events, which a stopped reader must not block
 
 inline constexpr auto register_block_topic = "plcgw/v1/RegisterBlock";
+inline constexpr auto point_topic = "plcgw/v1/Point";
 inline constexpr auto gateway_status_topic = "plcgw/v1/GatewayStatus";
 inline constexpr auto serial_message_topic = "plcgw/v1/SerialMessage";
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bridge/dds/gateway_status.hpp"
+#include "bridge/points/point.hpp"
 #include "bridge/sample.hpp"
 #include "bridge/serial_message.hpp"
 
@@ -17,6 +18,18 @@ struct received_block {
     std::uint64_t seq{};
     std::uint16_t code{};  // quality as sent: QUALITY_* of registers.idl, or a code of a later version
     sample value;
+};
+
+struct received_point {
+    std::string gateway;
+    std::string member;
+    std::uint64_t seq{};
+    std::uint16_t code{};  // quality as sent
+    std::string name;
+    point_value value;
+    quality state{};
+    wall_time source{};
+    std::string unit;
 };
 
 struct received_status {
@@ -45,12 +58,19 @@ struct gone_block {
     gone_reason reason{};
 };
 
+struct gone_point {
+    std::string gateway;
+    std::string name;
+    gone_reason reason{};
+};
+
 struct gone_gateway {
     std::string gateway;
     std::string member;
     gone_reason reason{};
 };
 
-using dds_event = std::variant<received_block, received_status, received_message, gone_block, gone_gateway>;
+using dds_event = std::variant<received_block, received_point, received_status, received_message, gone_block,
+                               gone_point, gone_gateway>;
 
 }  // namespace plcgw

@@ -34,9 +34,12 @@ line_style style_of(quality q)
 {
     switch (q) {
     case quality::good: return line_style::plain;
-    case quality::stale: return line_style::warning;
+    case quality::stale:
+    case quality::substituted:
+    case quality::out_of_limits: return line_style::warning;
     case quality::comm_error:
-    case quality::device_error: return line_style::error;
+    case quality::device_error:
+    case quality::no_value: return line_style::error;
     case quality::never_read: break;
     }
     return line_style::old;
@@ -63,6 +66,27 @@ bool event_table::apply_one(const received_block& e, wall_time)
     const bool changed = row.state != next.state || seen(row) != seen(next);
     row = next;
     return changed;
+}
+
+bool event_table::apply_one(const received_point& e, wall_time)
+{
+    auto& row = points_[{e.gateway, e.name}];
+    const bool changed =
+        row.state == writer::lost || row.last.name.empty() || row.last.code != e.code || row.last.value != e.value;
+    row = {e, writer::alive};
+    return changed;
+}
+
+bool event_table::apply_one(const gone_point& e, wall_time)
+{
+    const auto row = points_.find({e.gateway, e.name});
+    if (row == points_.end())
+        return false;
+    if (e.reason == gone_reason::disposed)
+        points_.erase(row);
+    else
+        row->second.state = writer::lost;
+    return true;
 }
 
 bool event_table::apply_one(const received_status& e, wall_time now)
@@ -109,6 +133,8 @@ std::vector<table_line> event_table::lines(wall_time now, std::size_t width, std
         gateways.insert(std::get<0>(key));
     for (const auto& [key, row] : blocks_)
         gateways.insert(std::get<0>(key));
+    for (const auto& [key, row] : points_)
+        gateways.insert(key.first);
     for (const auto& [key, row] : messages_)
         gateways.insert(std::get<0>(key));
 
@@ -161,7 +187,25 @@ void event_table::gateway_lines(const std::string& gateway, wall_time now, std::
                        row_text(mark, printable(v.route), register_text(v.area, v.first, v.count),
                                 lost ? "gone" : to_string(v.state), age_text(v.source, now), values_text(v))});
     }
+    point_lines(gateway, now, out);
     message_lines(gateway, now, out);
+}
+
+void event_table::point_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const
+{
+    bool headed = false;
+    for (const auto& [key, row] : points_) {
+        if (key.first != gateway)
+            continue;
+        if (!std::exchange(headed, true))
+            out.push_back({line_style::heading, row_text(' ', "POINT", "", "QUALITY", "AGE", "VALUE")});
+        const received_point& p = row.last;
+        const bool lost = row.state == writer::lost;
+        const char mark = lost ? 'x' : p.state == quality::good ? ' ' : '!';
+        out.push_back({lost ? line_style::old : style_of(p.state),
+                       row_text(mark, printable(p.name), "", lost ? "gone" : to_string(p.state),
+                                age_text(p.source, now), value_text(p))});
+    }
 }
 
 void event_table::message_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const

@@ -40,12 +40,19 @@ private:
         received_block last;
         writer state{};
     };
+    struct point_row {
+        received_point last;
+        writer state{};
+    };
 
     bool apply_one(const received_block& e, wall_time now);
+    bool apply_one(const received_point& e, wall_time now);
+    bool apply_one(const gone_point& e, wall_time now);
     bool apply_one(const received_status& e, wall_time now);
     bool apply_one(const received_message& e, wall_time now);
     bool apply_one(const gone_block& e, wall_time now);
     bool apply_one(const gone_gateway& e, wall_time now);
+    void point_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
     void message_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
     void gateway_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
 
@@ -54,7 +61,8 @@ private:
     using message_key = std::tuple<std::string, std::string, message_direction, std::string>;  // gateway, line, name
     std::map<member_key, member_row> members_;
     std::map<block_key, block_row> blocks_;
-    std::map<message_key, received_message> messages_;  // the last one each
+    std::map<std::pair<std::string, std::string>, point_row> points_;  // gateway, name
+    std::map<message_key, received_message> messages_;                 // the last one each
 };
 
 }  // namespace plcgw

@@ -21,6 +21,12 @@ std::string line(const received_block& e)
                        register_text(v.area, v.first, v.count), to_string(v.state), values_text(v));
 }
 
+std::string line(const received_point& e)
+{
+    return fmt::format("{} {} {} {}: {}", iso_time(e.source), printable(e.gateway), printable(e.name),
+                       to_string(e.state), value_text(e));
+}
+
 std::string line(const received_status& e)
 {
     return fmt::format("gateway {}, member {}: {}", printable(e.who.gateway), printable(e.who.member), status_text(e));
@@ -39,6 +45,11 @@ std::string line(const gone_block& e)
 {
     return fmt::format("- {} {} {} gone: {}", printable(e.gateway), printable(e.route),
                        register_text(e.area, e.first, 1), to_string(e.reason));
+}
+
+std::string line(const gone_point& e)
+{
+    return fmt::format("- {} {} gone: {}", printable(e.gateway), printable(e.name), to_string(e.reason));
 }
 
 std::string line(const gone_gateway& e)
@@ -113,6 +124,31 @@ std::vector<std::uint16_t> values_of(const sample& s)
 std::string values_text(const sample& s)
 {
     return fmt::format("{}", fmt::join(values_of(s), s.format == sample_format::words ? " " : ""));
+}
+
+std::string value_text(const received_point& p)
+{
+    const std::string unit = p.unit.empty() ? std::string() : " " + printable(p.unit);
+    switch (p.value.kind) {
+    case point_kind::none: break;
+    case point_kind::boolean: return p.value.integer != 0 ? "on" : "off";
+    case point_kind::integer: return std::to_string(p.value.integer) + unit;
+    case point_kind::real: return fmt::format("{}{}", p.value.real, unit);
+    case point_kind::text: return printable(p.value.text);
+    }
+    return "-";
+}
+
+std::string_view to_string(point_kind kind)
+{
+    switch (kind) {
+    case point_kind::none: break;
+    case point_kind::boolean: return "bool";
+    case point_kind::integer: return "integer";
+    case point_kind::real: return "real";
+    case point_kind::text: return "text";
+    }
+    return "none";
 }
 
 std::string register_text(const std::string& area, std::uint32_t first, std::uint32_t count)

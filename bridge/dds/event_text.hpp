@@ -17,12 +17,14 @@ std::string printable(const std::string& text);
 
 // One number for each register or bit; never more than words holds, whatever count says.
 std::vector<std::uint16_t> values_of(const sample& s);
-std::string values_text(const sample& s);  // "1 2 3", or bits as "0110"
+std::string values_text(const sample& s);         // "1 2 3", or bits as "0110"
+std::string value_text(const received_point& p);  // "21.5 Cel", "on", "-" when there is none
 
 std::string register_text(const std::string& area, std::uint32_t first, std::uint32_t count);  // "holding 100..103"
 std::string status_text(const received_status& s);                                             // "solo, routes 3/4 up"
 std::string_view to_string(gone_reason reason);
 std::string_view to_string(message_direction way);
+std::string_view to_string(point_kind kind);
 
 std::string line_of(const dds_event& event);  // one line without its end
 

@@ -11,9 +11,16 @@
 
 #include <map>
 #include <tuple>
+#include <unordered_map>
 
 namespace plcgw {
 namespace {
+
+static_assert(static_cast<int>(point_kind::none) == plcgw_v1_KIND_NONE);
+static_assert(static_cast<int>(point_kind::boolean) == plcgw_v1_KIND_BOOLEAN);
+static_assert(static_cast<int>(point_kind::integer) == plcgw_v1_KIND_INTEGER);
+static_assert(static_cast<int>(point_kind::real) == plcgw_v1_KIND_REAL);
+static_assert(static_cast<int>(point_kind::text) == plcgw_v1_KIND_TEXT);
 
 using instance_key = std::tuple<std::string, std::string, std::uint32_t>;
 
@@ -32,10 +39,12 @@ struct dds_publisher::state {
     dds_identity who;
     std::unique_ptr<dds_participant> participant;
     dds_entity_t blocks{};    // writer of RegisterBlock
+    dds_entity_t points{};    // writer of Point
     dds_entity_t statuses{};  // writer of GatewayStatus
     dds_entity_t messages{};  // writer of SerialMessage
     std::map<instance_key, std::uint64_t, std::less<>> sequence;
     std::map<std::string, std::uint64_t> messages_of;  // each line
+    std::unordered_map<std::string, std::uint64_t> points_of;
     std::uint64_t beat = 0;
     std::uint64_t published = 0;
     std::uint64_t drops = 0;
@@ -71,6 +80,9 @@ dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dd
     made->blocks = create_writer(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
     if (made->blocks < 0)
         return creation_error("DDS writer of RegisterBlock", made->blocks, log.text());
+    made->points = create_writer(plcgw_v1_Point_desc, point_topic, state_qos());
+    if (made->points < 0)
+        return creation_error("DDS writer of Point", made->points, log.text());
     made->statuses = create_writer(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
     if (made->statuses < 0)
         return creation_error("DDS writer of GatewayStatus", made->statuses, log.text());
@@ -118,6 +130,23 @@ void dds_publisher::publish(const sample& s)
     block.words._length = block.words._maximum = static_cast<std::uint32_t>(s.words.size());
     block.words._buffer = const_cast<std::uint16_t*>(s.words.data());  // dds_write only reads it
     state_->count(dds_write(state_->blocks, &block));
+}
+
+void dds_publisher::publish(const point_sample& point)
+{
+    plcgw_v1_Point out{};
+    fill_string(out.gateway, state_->who.gateway);
+    fill_string(out.name, point.name);
+    fill_string(out.member, state_->who.member);
+    out.seq = ++state_->points_of[std::string(point.name)];
+    out.source_ns = static_cast<std::int64_t>(point.source);
+    out.quality = quality_code(point.state);
+    out.kind = static_cast<std::uint8_t>(point.value.kind);
+    out.real = point.value.real;
+    out.integer = point.value.integer;
+    fill_string(out.text, point.value.text);
+    fill_string(out.unit, point.unit);
+    state_->count(dds_write(state_->points, &out));
 }
 
 void dds_publisher::publish(const gateway_status& status)

@@ -4,6 +4,7 @@
 #include "bridge/dds/error.hpp"
 #include "bridge/dds/gateway_status.hpp"
 #include "bridge/dds/settings.hpp"
+#include "bridge/points/point_table.hpp"
 #include "bridge/sample.hpp"
 #include "bridge/serial_message.hpp"
 
@@ -25,6 +26,7 @@ public:
     // Route, area and first are the key: a fixed set, since Cyclone never frees all of a key's memory. A name longer
     // than 64 bytes (area: 32) is cut.
     void publish(const sample& s);
+    void publish(const point_sample& point);  // its name is the key; 128 bytes
     void publish(const gateway_status& status);
     void publish(const serial_message& message);  // an event: who subscribes later does not get it
 

@@ -16,17 +16,23 @@ constexpr quality_row quality_table[] = {
     {quality::stale, plcgw_v1_QUALITY_STALE},
     {quality::comm_error, plcgw_v1_QUALITY_BAD_COMM},
     {quality::device_error, plcgw_v1_QUALITY_BAD_DEVICE},
+    {quality::substituted, plcgw_v1_QUALITY_SUBSTITUTED},
+    {quality::out_of_limits, plcgw_v1_QUALITY_LIMITS},
+    {quality::no_value, plcgw_v1_QUALITY_BAD_SENSOR},
 };
+
+constexpr bool agrees()
+{
+    for (const quality_row& row : quality_table)
+        if (row.code != code_of(row.state))
+            return false;
+    return true;
+}
+static_assert(agrees());
 
 }  // namespace
 
-std::uint16_t quality_code(quality q)
-{
-    for (const auto& row : quality_table)
-        if (row.state == q)
-            return row.code;
-    return plcgw_v1_QUALITY_BAD;
-}
+std::uint16_t quality_code(quality q) { return code_of(q); }
 
 quality quality_from_code(std::uint16_t code)
 {

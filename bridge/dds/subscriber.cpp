@@ -53,6 +53,17 @@ dds_event received(const plcgw_v1_RegisterBlock& in)
     return out;
 }
 
+dds_event received(const plcgw_v1_Point& in)
+{
+    received_point out{text(in.gateway), text(in.member), in.seq, in.quality, text(in.name), {}, {}, {}, {}};
+    const bool known = in.kind <= plcgw_v1_KIND_TEXT;
+    out.value = {known ? point_kind{in.kind} : point_kind::none, in.real, in.integer, text(in.text)};
+    out.state = quality_from_code(in.quality);
+    out.source = wall_time{in.source_ns};
+    out.unit = text(in.unit);
+    return out;
+}
+
 dds_event received(const plcgw_v1_GatewayStatus& in)
 {
     received_status out;
@@ -81,6 +92,11 @@ dds_event received(const plcgw_v1_SerialMessage& in)
 dds_event gone(const plcgw_v1_RegisterBlock& key, gone_reason reason)
 {
     return gone_block{text(key.gateway), text(key.route), text(key.area), key.first, reason};
+}
+
+dds_event gone(const plcgw_v1_Point& key, gone_reason reason)
+{
+    return gone_point{text(key.gateway), text(key.name), reason};
 }
 
 dds_event gone(const plcgw_v1_GatewayStatus& key, gone_reason reason)
@@ -126,6 +142,7 @@ struct dds_subscriber::state {
     int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     std::unique_ptr<dds_participant> participant;
     dds_entity_t blocks{};    // reader of RegisterBlock
+    dds_entity_t points{};    // reader of Point
     dds_entity_t statuses{};  // reader of GatewayStatus
     dds_entity_t messages{};  // reader of SerialMessage
 
@@ -166,6 +183,9 @@ dds_result<dds_subscriber> dds_subscriber::create(const dds_settings& settings)
     made->blocks = create_reader(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
     if (made->blocks < 0)
         return creation_error("DDS reader of RegisterBlock", made->blocks, log.text());
+    made->points = create_reader(plcgw_v1_Point_desc, point_topic, state_qos());
+    if (made->points < 0)
+        return creation_error("DDS reader of Point", made->points, log.text());
     made->statuses = create_reader(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
     if (made->statuses < 0)
         return creation_error("DDS reader of GatewayStatus", made->statuses, log.text());
@@ -189,7 +209,8 @@ std::vector<dds_event> dds_subscriber::take(std::size_t most)
     while (more && events.size() < most) {
         const bool statuses = take_some<plcgw_v1_GatewayStatus>(state_->statuses, events);
         const bool messages = take_some<plcgw_v1_SerialMessage>(state_->messages, events);
-        more = take_some<plcgw_v1_RegisterBlock>(state_->blocks, events) || statuses || messages;
+        const bool points = take_some<plcgw_v1_Point>(state_->points, events);
+        more = take_some<plcgw_v1_RegisterBlock>(state_->blocks, events) || points || statuses || messages;
     }
     if (more)
         wake(state_->descriptor);

@@ -3,10 +3,11 @@
 
 #include "bridge/messages/pattern.hpp"
 #include "bridge/messages/words.hpp"
+#include "bridge/points/value_type.hpp"
 
 namespace plcgw::messages {
 
-enum class value_type : std::uint8_t { int16, uint16, int32, uint32, float32, float64, bcd16, bcd32, text };
+using plcgw::value_type;
 
 // Of values of more than one register. FX, LS and FP keep the low word in the first one.
 enum class word_order : std::uint8_t { low_first, high_first };

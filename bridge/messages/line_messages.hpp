@@ -77,7 +77,8 @@ public:
 
     const std::string& name() const { return options_.name; }
     std::size_t routes_total() const { return raws_.size() + routes_.size(); }
-    std::size_t routes_up() const;  // of good quality, and those that may wait for ever and have nothing yet
+    std::size_t routes_up() const;          // of good quality, and those that may wait for ever and have nothing yet
+    std::vector<plc_block> filled() const;  // devices that messages fill, by the names of their samples
     void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;
 
     std::uint16_t status(status_word which) const;

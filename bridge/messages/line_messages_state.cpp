@@ -64,6 +64,16 @@ std::size_t line_messages::routes_up() const
     return count;
 }
 
+std::vector<plc_block> line_messages::filled() const
+{
+    std::vector<plc_block> all;
+    for (const raw& each : raws_)
+        all.push_back(each.row.into);
+    for (const route& each : routes_)
+        all.insert(all.end(), each.row.into.begin(), each.row.into.end());
+    return all;
+}
+
 void line_messages::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
 {
     const plc::change span{at.area, at.bit, bits};

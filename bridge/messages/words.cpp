@@ -1,6 +1,6 @@
 #include "bridge/messages/words.hpp"
 
-#include <algorithm>
+#include "bridge/points/value_type.hpp"
 
 namespace plcgw::messages {
 
@@ -8,9 +8,7 @@ using general_purpose::ending;
 
 void pack(bytes from, words area)
 {
-    std::fill(area.begin(), area.end(), std::uint16_t{0});
-    for (std::size_t i = 0; i < from.size(); ++i)
-        area[i / 2] = static_cast<std::uint16_t>(area[i / 2] | from[i] << (i % 2 == 0 ? 0 : 8));
+    put_text(from, byte_order::badc, area);  // the first of two in the low byte
 }
 
 result<std::size_t> store_message(bytes message, words area)

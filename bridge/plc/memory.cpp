@@ -79,13 +79,50 @@ void memory::read(place p, std::span<std::uint16_t> words) const
 
 void memory::set_bit(place p, bool value)
 {
+    note_write(p, 1);
+    put_bit(p, value);
+}
+
+void memory::set_word(place p, std::uint16_t value)
+{
+    note_write(p, 16);
+    put_word(p, value);
+}
+
+memory::watch memory::watch_writes(place p, std::size_t bits)
+{
+    image& of = images_[p.area];
+    of.watched.resize(of.registers.size());
+    for (std::size_t index = p.bit / 16; index <= (p.bit + bits - 1) / 16; ++index)
+        of.watched[index].push_back(watches_.size());
+    watches_.push_back({p, bits});
+    return watches_.size() - 1;
+}
+
+bool memory::take_written(watch w) { return std::exchange(watches_[w].written, false); }
+
+void memory::note_write(place p, std::size_t bits)
+{
+    const image& of = images_[p.area];
+    if (of.watched.empty())
+        return;
+    for (std::size_t index = p.bit / 16; index <= (p.bit + bits - 1) / 16; ++index)
+        for (const watch each : of.watched[index]) {
+            watched_run& run = watches_[each];
+            run.written = run.written || overlaps({p.area, p.bit, bits}, run.first, run.bits);
+            written_ = written_ || run.written;
+        }
+}
+
+void memory::put_bit(place p, bool value)
+{
     image& of = images_[p.area];
     const std::uint16_t before = of.registers[p.bit / 16];
     const unsigned mask = 1U << p.bit % 16 & of.writable[p.bit / 16];
     store(of, p.bit / 16, static_cast<std::uint16_t>(value ? before | mask : before & ~mask));
 }
 
-void memory::set_word(place p, std::uint16_t value)
+void memory::put_word(place p, std::uint16_t value)
 {
     image& of = images_[p.area];
     const std::size_t index = p.bit / 16;

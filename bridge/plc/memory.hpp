@@ -4,6 +4,7 @@
 #include "bridge/plc/model.hpp"
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace plcgw::plc {
@@ -47,6 +48,16 @@ public:
     void set_bit(place p, bool value);
     void set_word(place p, std::uint16_t value);  // bits of no device stay 0
 
+    // As set_bit() and set_word(), but no sign of life of whoever writes there: what the gateway puts in his place.
+    void put_bit(place p, bool value);
+    void put_word(place p, std::uint16_t value);
+
+    // Writes count although the value stays the same: for who has to know whether somebody still writes there.
+    using watch = std::size_t;
+    watch watch_writes(place p, std::size_t bits);
+    bool take_written(watch w);                                     // since the last call
+    bool take_written() { return std::exchange(written_, false); }  // any of the watched devices
+
     // Devices that nobody but the PLC sets: show_word() and show_bit() do, the others pass over them.
     void set_protected(place p, std::size_t bits, bool on);
     void show_bit(place p, bool value);
@@ -62,14 +73,23 @@ private:
         std::vector<std::uint16_t> writable;  // bits that anybody may set
         std::size_t dirty_begin = 0;          // dirty registers lie in [begin, end)
         std::size_t dirty_end = 0;
+        std::vector<std::vector<watch>> watched;  // by register; empty where nobody watches
+    };
+    struct watched_run {
+        place first;
+        std::size_t bits{};
+        bool written = false;
     };
 
     static void close(image& of, std::size_t first_bit, std::size_t count);
     void store(image& of, std::size_t index, std::uint16_t value);
+    void note_write(place p, std::size_t bits);
 
     const plc::model* model_;
     std::vector<image> images_;
+    std::vector<watched_run> watches_;
     bool changed_ = false;
+    bool written_ = false;  // some watched device
 };
 
 }  // namespace plcgw::plc

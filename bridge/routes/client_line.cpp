@@ -1,5 +1,7 @@
 #include "bridge/routes/client_line.hpp"
 
+#include "bridge/routes/route_status.hpp"
+
 #include <algorithm>
 
 namespace plcgw {
@@ -7,7 +9,6 @@ namespace {
 
 constexpr int periods_until_stale = 3;
 constexpr duration least_longest_delay = std::chrono::seconds(5);
-constexpr duration refused_write_pause = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -20,19 +21,6 @@ client_line::client_line(std::string name, std::vector<station> stations, const 
         const modbus::serial_options& each = stations_[i].timing;
         schedule_.set_longest_delay(i, std::max(least_longest_delay, (each.retries + 2) * each.response_timeout));
     }
-}
-
-void client_line::add_route(route r, std::size_t station, duration period)
-{
-    if (r.way == direction::read)
-        schedule_.add_poll(station, period);
-    else
-        schedule_.add_write(station);
-    r.words.resize((bits_of(r) + 15) / 16);
-    row& added = routes_.emplace_back();
-    added.content = std::move(r);
-    added.station = station;
-    added.period = period;
 }
 
 std::optional<forward_ticket> client_line::forward(station_number unit, modbus::request request,
@@ -177,23 +165,28 @@ void client_line::answered(const question& q, const station_answer& answer, time
     schedule_.finished(turn, schedule::outcome::answered, now - q.asked_at, now, late);
     note_health(station, before, {});
     note_load(now);
-    if (of.content.way == direction::write)
+    if (writes(of.content.way))
         forwards_.forget(q.unit);
     else if (const auto* const response = std::get_if<modbus::response>(&answer))
         forwards_.heard(q.unit, q.request(), *response, now);
 
     of.answered = true;
     if (const auto refused = refusal_in(answer)) {
-        set_quality(of, quality::device_error, refused->reason);
-        if (of.content.way == direction::write && refused->may_pass)
-            schedule_.ask(turn.item, now + refused_write_pause);
+        ++reading(of).content.errors;
+        set_quality(of, quality::device_error, refused->reason, refused->code);
+        if (writes(of.content.way))
+            was_refused(of, q, now, refused->may_pass);
         return;
     }
-    const std::vector<std::uint16_t> words_before = of.content.words;
-    store(of.content, q.asked, answer);
+    if (!is_outdated(of, q)) {
+        const std::vector<std::uint16_t> words_before = of.content.words;
+        store(of.content, q.asked, answer);
+        was_stored(of, q, now);
+        of.changed = of.changed || of.content.words != words_before;
+    }
     of.content.source = wall;
     of.good_at = now;
-    of.changed = of.changed || of.content.words != words_before;
+    ++of.content.answers;
     set_quality(of, quality::good, {});
 }
 
@@ -215,11 +208,13 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
     row& of = routes_[turn.item];
+    const auto code = static_cast<std::uint16_t>(code_of(why));
     schedule_.finished(turn, how, now - q.asked_at, now, late);
-    if (of.content.way == direction::write)
+    if (writes(of.content.way))
         forwards_.forget(q.unit);
-    set_quality(of, quality::comm_error, reason);
-    note_health(station, before, reason);
+    ++reading(of).content.errors;
+    set_quality(of, quality::comm_error, reason, code);
+    note_health(station, before, reason, code);
 }
 
 void client_line::interrupted(const question& q)
@@ -233,28 +228,9 @@ void client_line::interrupted(const question& q)
 void client_line::port_lost(const std::string& why)
 {
     for (row& each : routes_)
-        lose(each, why);
+        lose(each, why, static_cast<std::uint16_t>(no_answer::no_port));
     forwards_.answer_all(errc::port_absent);
     port_open_ = false;
-}
-
-// A value that nobody can renew now. What is only written is as good as it was.
-void client_line::lose(row& of, const std::string& why)
-{
-    if (of.content.way == direction::read)
-        set_quality(of, quality::comm_error, why);
-}
-
-bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
-{
-    bool due = false;
-    for (std::size_t i = 0; i < routes_.size(); ++i) {
-        if (routes_[i].content.way != direction::write || !touches(routes_[i].content, plc, changed))
-            continue;
-        schedule_.ask(i);
-        due = true;
-    }
-    return due;
 }
 
 std::vector<sample> client_line::take_samples(time_point now)
@@ -263,7 +239,7 @@ std::vector<sample> client_line::take_samples(time_point now)
     for (row& each : routes_) {
         age(each, now);
         const bool confirmed = each.answered && now - each.said_at >= options_.longest_silence;
-        if (!each.changed && !confirmed)
+        if (each.half || (!each.changed && !confirmed))
             continue;
         each.changed = each.answered = false;
         each.said_at = now;
@@ -277,7 +253,8 @@ void client_line::age(row& of, time_point now)
 {
     const bool polled = of.content.way == direction::read;
     if (polled && of.content.state == quality::good && now - of.good_at > periods_until_stale * of.period)
-        set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods");
+        set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods",
+                    static_cast<std::uint16_t>(no_answer::not_renewed));
 }
 
 void client_line::say_everything()
@@ -286,12 +263,20 @@ void client_line::say_everything()
         each.changed = true;
 }
 
+bool client_line::is_up(std::size_t number) const
+{
+    const route& of = routes_[number].content;
+    return of.state == quality::good ||
+           (writes(of.way) && of.state == quality::never_read);  // had nothing to write yet
+}
+
 std::size_t client_line::routes_up() const
 {
-    return static_cast<std::size_t>(std::count_if(routes_.begin(), routes_.end(), [](const row& each) {
-        const bool idle_write = each.content.way == direction::write && each.content.state == quality::never_read;
-        return each.content.state == quality::good || idle_write;
-    }));
+    std::size_t up = 0;
+    for (std::size_t i = 0; i < routes_.size(); ++i)
+        if (!is_half(i) && is_up(i))
+            ++up;
+    return up;
 }
 
 void client_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
@@ -306,9 +291,11 @@ void client_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place a
     }
 }
 
-void client_line::set_quality(row& of, quality state, const std::string& reason)
+void client_line::set_quality(row& of, quality state, const std::string& reason, std::uint16_t code)
 {
     route& r = of.content;
+    if (r.state == quality::substituted && state == quality::comm_error)
+        state = r.state;  // still lost
     if (state == quality::device_error && (r.state != state || r.reason != reason))
         note(line_event::severity::warning,
              "line " + name_ + ", route " + r.name + ": " + label(stations_[of.station]) + " refuses: " + reason);
@@ -317,9 +304,10 @@ void client_line::set_quality(row& of, quality state, const std::string& reason)
     of.changed = of.changed || r.state != state;
     r.state = state;
     r.reason = reason;
+    r.reason_code = code;
 }
 
-void client_line::note_health(std::size_t index, health before, const std::string& reason)
+void client_line::note_health(std::size_t index, health before, const std::string& reason, std::uint16_t code)
 {
     const station& of = stations_[index];
     const health after = schedule_.state_of(index);
@@ -327,15 +315,20 @@ void client_line::note_health(std::size_t index, health before, const std::strin
         note(line_event::severity::info, label(of) + " answers again");
     if (before == health::down || after != health::down)
         return;
-    const bool has_routes =
-        std::any_of(routes_.begin(), routes_.end(), [&](const row& r) { return r.station == index; });
-    note(line_event::severity::warning, label(of) + " does not answer (" + reason + "): " +
-                                            (has_routes ? "its values are kept, it is probed from now on"
-                                                        : "requests to it fail at once, until one that is let through "
-                                                          "now and then is answered"));
-    for (row& each : routes_)
-        if (each.station == index)
-            lose(each, reason);
+    bool has_routes = false;
+    bool replaced = false;
+    for (row& each : routes_) {
+        if (each.station != index)
+            continue;
+        has_routes = true;
+        lose(each, reason, code);
+        replaced = replaced || each.content.state == quality::substituted;
+    }
+    const std::string values = replaced ? "kept or replaced as on_loss says" : "kept";
+    note(line_event::severity::warning,
+         label(of) + " does not answer (" + reason + "): " +
+             (has_routes ? "its values are " + values + ", it is probed from now on"
+                         : "requests to it fail at once, until one that is let through now and then is answered"));
 }
 
 // Told once, and again when it has fitted for a while.

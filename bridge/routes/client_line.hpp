@@ -38,7 +38,8 @@ class client_line {
 public:
     client_line(std::string name, std::vector<station> stations, const line_options& options);
 
-    void add_route(route r, std::size_t station, duration period);
+    // The row's number. A route that reads and writes has the next one, too, for its writing half.
+    std::size_t add_route(route r, std::size_t station, duration period);
     void start(time_point now) { schedule_.start(now); }
 
     // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent. Nothing when
@@ -101,14 +102,25 @@ public:
     // Somebody drained this change of a memory. True when a route is due to write it to its station.
     bool memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
 
+    // Somebody wrote devices that are watched, though nothing may have changed: periodic writes begin. As above.
+    bool memory_written();
+
     // Routes whose words or quality changed since the last call, and those not said for the longest silence.
     std::vector<sample> take_samples(time_point now);
     void say_everything();  // the next take_samples() gives all routes: whoever got them is new
     std::vector<line_event> take_events() { return std::exchange(events_, {}); }
 
     const std::string& name() const { return name_; }
-    std::size_t routes_total() const { return routes_.size(); }
+    std::size_t routes_total() const { return routes_.size() - halves_; }
     std::size_t routes_up() const;  // of good quality, and those that had nothing to write yet
+
+    // By row, as add_route() numbered them.
+    std::size_t rows() const { return routes_.size(); }
+    const route& route_at(std::size_t number) const { return routes_[number].content; }
+    std::size_t station_at(std::size_t number) const { return routes_[number].station; }
+    bool is_half(std::size_t number) const { return routes_[number].half; }  // the writing half of a route
+    bool is_up(std::size_t number) const;
+    health health_of(std::size_t station) const { return schedule_.state_of(station); }
 
     // The worst quality and the oldest source among the read routes that fill these devices; good when there are none.
     void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;
@@ -122,20 +134,35 @@ private:
         bool answered = false;  // since the last sample
         bool changed = true;    // since the last sample: the first one says "never read"
         time_point said_at{};
+
+        // Of a route that reads and writes: its other half, and whether this is the one that writes.
+        std::optional<std::size_t> partner{};
+        bool half = false;
+        std::vector<std::uint16_t> agreed{};  // of the reading half: what memory and station both had last
+        time_point written_at{};              // of the reading half: an answer to an older question is old
+
+        std::optional<plc::memory::watch> first_write{};  // of a periodic write that did not begin yet
+        time_point next_write{};
     };
 
-    void set_quality(row& of, quality state, const std::string& reason);
+    void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
+    row& reading(row& of) { return of.half ? routes_[*of.partner] : of; }
+    bool is_to_be_written(const row& of) const;
+    bool is_outdated(const row& of, const question& q) const;
+    void was_stored(row& of, const question& q, time_point now);
+    void was_refused(row& of, const question& q, time_point now, bool may_pass);
+    void plan_next_write(row& of, const question& q, time_point now, bool is_due);
     question question_of_turn(const schedule::turn& turn, time_point now) const;
     std::optional<question> next_forward(time_point now);
     forward_queue::verdict verdict_of(const forward_request& r, time_point now);
     std::size_t station_of(station_number unit);  // one that has no route is made known
     modbus::serial_options timing_of(std::size_t station) const;
-    void note_health(std::size_t station, health before, const std::string& reason);
+    void note_health(std::size_t station, health before, const std::string& reason, std::uint16_t code = 0);
     void note_load(time_point now);
     std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;
     void learn_delimiter(const question& q, const station_answer& answer);
     void doubt_delimiter(station_number unit);
-    void lose(row& of, const std::string& why);
+    void lose(row& of, const std::string& why, std::uint16_t code);
     void age(row& of, time_point now);
     void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
     std::string label(const station& of) const;
@@ -149,6 +176,7 @@ private:
     forward_queue forwards_;
     bool forwards_came_ = false;  // since they were looked at
     time_point forwards_wake_ = time_point::max();
+    std::size_t halves_ = 0;
     bool port_open_ = false;
     bool overloaded_ = false;
     time_point load_looked_at_{};

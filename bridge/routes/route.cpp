@@ -11,7 +11,7 @@ std::vector<bool> bits_in_memory(const route& r)
     return bits;
 }
 
-std::vector<std::uint16_t> words_in_memory(const route& r)
+std::vector<std::uint16_t> registers_in_memory(const route& r)
 {
     std::vector<std::uint16_t> words(r.count);
     r.plc->memory().read(r.at, words);
@@ -35,7 +35,7 @@ modbus::request write_question(const route& r, const modbus_place& to)
             return modbus::write_single_coil{to.first, bits[0]};
         return modbus::write_multiple_coils{to.first, std::move(bits)};
     }
-    std::vector<std::uint16_t> words = words_in_memory(r);
+    std::vector<std::uint16_t> words = registers_in_memory(r);
     if (words.size() == 1)
         return modbus::write_single_register{to.first, words[0]};
     return modbus::write_multiple_registers{to.first, std::move(words)};
@@ -59,7 +59,7 @@ struct asker {
                          : mewtocol::block{mewtocol::write_run{*contact, bits_in_memory(r)}};
         const auto& [area, first] = std::get<mewtocol::word_device>(there);
         return reads ? mewtocol::block{mewtocol::read_words{area, first, r.count}}
-                     : mewtocol::block{mewtocol::write_words{area, first, words_in_memory(r)}};
+                     : mewtocol::block{mewtocol::write_words{area, first, registers_in_memory(r)}};
     }
 };
 
@@ -137,6 +137,21 @@ station_question question_of(const route& r) { return std::visit(asker{r}, r.the
 void store(route& r, const station_question& question, const station_answer& answer)
 {
     std::visit([&](const auto& of_protocol) { std::visit(storer{r, question}, of_protocol); }, answer);
+}
+
+std::vector<std::uint16_t> words_in_memory(const route& r)
+{
+    return is_bits(r.there) ? packed(bits_in_memory(r)) : registers_in_memory(r);
+}
+
+void show_substitute(route& r)
+{
+    plc::memory& memory = r.plc->memory();
+    r.words = r.substitute;
+    for (std::size_t bit = 0; is_bits(r.there) && bit < r.count; ++bit)
+        memory.put_bit({r.at.area, r.at.bit + bit}, (r.words[bit / 16] >> bit % 16 & 1U) != 0);
+    for (std::size_t i = 0; !is_bits(r.there) && i < r.count; ++i)
+        memory.put_word({r.at.area, r.at.bit + 16 * i}, r.words[i]);
 }
 
 sample sample_of(const route& r)

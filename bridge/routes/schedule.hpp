@@ -40,6 +40,9 @@ public:
         items_[item].due = not_before;
     }
 
+    // A write that is to be asked, or under way.
+    bool is_wanted(std::size_t item) const { return items_[item].asked || items_[item].in_flight; }
+
     struct turn {
         std::size_t item{};    // not of a forwarded request
         bool with_retries{};   // a suspect or silent station gets one attempt

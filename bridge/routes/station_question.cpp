@@ -18,7 +18,7 @@ std::optional<station_refusal> refusal_of(const modbus::response& answer)
         return std::nullopt;
     const bool may_pass =
         *code == modbus::exception_code::acknowledge || *code == modbus::exception_code::server_device_busy;
-    return station_refusal{exception_text(*code), may_pass};
+    return station_refusal{exception_text(*code), may_pass, static_cast<std::uint16_t>(*code)};
 }
 
 std::string with_result(std::string text, mewtocol::result_code code)
@@ -32,7 +32,7 @@ std::optional<station_refusal> refusal_of(const mewtocol::response& answer)
     if (code == nullptr)
         return std::nullopt;
     return station_refusal{with_result("error " + mewtocol::to_string(*code), mewtocol::result_code::bad_response),
-                           mewtocol::is_passing(*code)};
+                           mewtocol::is_passing(*code), static_cast<std::uint16_t>(*code)};
 }
 
 }  // namespace

@@ -43,8 +43,9 @@ using station_question = std::variant<modbus::request, mewtocol::block>;
 using station_answer = std::variant<modbus::response, mewtocol::response>;
 
 struct station_refusal {
-    std::string reason;  // "exception 02 (illegal data address)", "error 61 (data), result 6"
-    bool may_pass{};     // "not now" rather than "never"
+    std::string reason;    // "exception 02 (illegal data address)", "error 61 (data), result 6"
+    bool may_pass{};       // "not now" rather than "never"
+    std::uint16_t code{};  // exception or error code
 };
 
 // Nothing if the station did what it was asked.

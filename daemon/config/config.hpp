@@ -6,6 +6,7 @@
 #include "daemon/config/message_config.hpp"
 #include "daemon/config/mewtocol_config.hpp"
 #include "daemon/config/plc_link_config.hpp"
+#include "daemon/config/point_config.hpp"
 #include "protocols/serial_timing.hpp"
 
 #include <chrono>
@@ -104,11 +105,13 @@ struct station_config {
     unsigned unit = 1;
     std::optional<milliseconds> response_timeout;  // of the line, if absent
     std::optional<unsigned> retries;
+    status_config status;
 };
 
 struct route_config {
     std::string name;
-    std::string station;
+    std::string station;                 // or
+    copy_source_config from;             // devices of a PLC
     std::optional<modbus::table> table;  // of a MODBUS station
     std::optional<unsigned> first;
     std::string source;  // of a MEWTOCOL station instead: "DT100", "R1F"
@@ -117,6 +120,10 @@ struct route_config {
     std::string device;
     direction way = direction::read;
     milliseconds period{1000};
+    loss_policy on_loss = loss_policy::keep;
+    std::vector<unsigned> loss_value;  // one for all registers or bits, or one for each
+    status_config status;
+    upstream_config upstream;
 };
 
 enum class server_framing : std::uint8_t { tcp, rtu, ascii };
@@ -162,6 +169,7 @@ struct gateway_config {
     std::vector<line_config> lines;
     std::vector<station_config> stations;
     std::vector<route_config> routes;
+    std::vector<point_config> points;
     std::vector<tcp_server_config> modbus_tcp;
     std::vector<plc_link_config> plc_links;
     dds_config dds;

@@ -5,6 +5,7 @@
 #include "daemon/config/config.hpp"
 #include "daemon/config/message_fields.hpp"
 #include "daemon/config/mewtocol_fields.hpp"
+#include "daemon/config/point_fields.hpp"
 
 namespace plcgw::config {
 
@@ -18,7 +19,10 @@ inline constexpr choice<server_framing> server_framings[] = {
 inline constexpr choice<local_echo> local_echoes[] = {
     {"off", local_echo::off}, {"on", local_echo::on}, {"auto", local_echo::automatic}};
 inline constexpr choice<parity> parities[] = {{"none", parity::none}, {"odd", parity::odd}, {"even", parity::even}};
-inline constexpr choice<direction> directions[] = {{"read", direction::read}, {"write", direction::write}};
+inline constexpr choice<direction> directions[] = {{"read", direction::read},
+                                                   {"write", direction::write},
+                                                   {"read-write", direction::read_write},
+                                                   {"periodic-write", direction::periodic_write}};
 inline constexpr choice<modbus::table> tables[] = {{"coil", modbus::table::coils},
                                                    {"discrete", modbus::table::discrete_inputs},
                                                    {"input", modbus::table::input_registers},
@@ -162,13 +166,15 @@ void describe(Visitor& v, station_config& c)
         range{0, 999});
     v.optional("response_timeout_ms", c.response_timeout, "As at the line, for this station", range{1, 60'000});
     v.optional("retries", c.retries, "As at the line, for this station", range{0, 20});
+    v.optional("status", c.status, "Words of a PLC that show how it does");
 }
 
 template <class Visitor>
 void describe(Visitor& v, route_config& c)
 {
     v.required("name", c.name, "Name of the route: key of its DDS instance", name_rule);
-    v.required("station", c.station, "Name of the station", name_rule);
+    v.optional("station", c.station, "Name of the station", text{0, 64});
+    v.optional("from", c.from, "Or devices of a PLC, which are copied when they change");
     v.optional("table", c.table, "MODBUS: table of the station's registers or bits", tables);
     v.optional("first", c.first, "MODBUS: protocol address of the first one, zero-based: 40001 is 0", range{0, 65'535});
     v.optional("source", c.source,
@@ -178,8 +184,20 @@ void describe(Visitor& v, route_config& c)
     v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
     v.required("device", c.device,
                "First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, WR3 in an FP7", text{2, 16});
-    v.optional("direction", c.way, "read: station to PLC, periodically; write: PLC to station, on change", directions);
-    v.optional("period_ms", c.period, "Milliseconds from one read to the next", range{10, 86'400'000});
+    v.optional(
+        "direction", c.way,
+        "read: station to PLC, periodically; write: PLC to station, on change; read-write: both; periodic-write: on "
+        "change and periodically",
+        directions);
+    v.optional("period_ms", c.period, "Milliseconds from one read, or periodic write, to the next",
+               range{10, 86'400'000});
+    v.optional("on_loss", c.on_loss,
+               "What the PLC's memory shows when the station is lost: keep the last values, zero, or value",
+               loss_policies);
+    v.optional("loss_value", c.loss_value, "Of on_loss value: one for all registers or bits, or one for each",
+               range{0, 65'535});
+    v.optional("status", c.status, "Words of a PLC that show how the route does");
+    v.optional("upstream", c.upstream, "Of a write route: safe values when nobody writes its devices any more");
 }
 
 template <class Visitor>
@@ -246,6 +264,7 @@ void describe(Visitor& v, gateway_config& c)
     v.optional("lines", c.lines, "Serial lines");
     v.optional("stations", c.stations, "Devices on the lines");
     v.optional("routes", c.routes, "Routing table: registers of stations to devices of PLCs");
+    v.optional("points", c.points, "Typed values on top of the PLCs' words, published as DDS points");
     v.optional("modbus_tcp", c.modbus_tcp, "MODBUS TCP servers");
     v.optional("plc_links", c.plc_links, "PLC links: link relays and registers that FP7s of several gateways share");
     v.optional("dds", c.dds, "DDS");

@@ -9,7 +9,6 @@ namespace plcgw::config {
 using general_purpose::end_code;
 using general_purpose::start_code;
 using general_purpose::when_full;
-using messages::value_type;
 using messages::word_order;
 
 inline constexpr choice<start_code> start_codes[] = {{"none", start_code::none}, {"stx", start_code::stx}};

@@ -133,6 +133,26 @@ void reader::read(const nlohmann::json& from, const std::string& at, std::vector
         read(from[i], at + "/" + std::to_string(i), out.emplace_back(), rule);
 }
 
+void reader::read(const nlohmann::json& from, const std::string& at, double& out, const number& rule)
+{
+    const double value = from.is_number() ? from.get<double>() : std::nan("");
+    if (value >= rule.least && value <= rule.most)
+        out = value;
+    else
+        complain(at,
+                 "is " + dumped(from) + ", expected a number from " + dumped(rule.least) + " to " + dumped(rule.most));
+}
+
+void reader::read(const nlohmann::json& from, const std::string& at, std::vector<unsigned>& out, const range& rule)
+{
+    if (!from.is_array()) {
+        complain(at, "is " + dumped(from) + ", expected an array of numbers: [ 0, 1 ]");
+        return;
+    }
+    for (std::size_t i = 0; i < from.size(); ++i)
+        read(from[i], at + "/" + std::to_string(i), out.emplace_back(), rule);
+}
+
 std::optional<std::int64_t> reader::integer(const nlohmann::json& from, const std::string& at, const range& rule)
 {
     const auto value = whole_number(from);

@@ -12,6 +12,12 @@ struct range {
     std::int64_t most;
 };
 
+// Not only whole ones.
+struct number {
+    double least;
+    double most;
+};
+
 // A name is a DDS key and stands in logs: 1 to `most` bytes. Any other text may be empty.
 struct text {
     std::size_t least = 0;

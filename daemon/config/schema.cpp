@@ -38,6 +38,22 @@ json value_schema(unsigned value, const range& rule)
     return s;
 }
 
+json number_schema(const number& rule) { return {{"type", "number"}, {"minimum", rule.least}, {"maximum", rule.most}}; }
+
+json value_schema(double value, const number& rule)
+{
+    json s = number_schema(rule);
+    s["default"] = value;
+    return s;
+}
+
+json value_schema(const std::optional<double>&, const number& rule) { return number_schema(rule); }
+
+json value_schema(const std::vector<unsigned>&, const range& rule)
+{
+    return {{"type", "array"}, {"items", integer_schema(rule)}};
+}
+
 template <class Period>
 json value_schema(const std::chrono::duration<std::int64_t, Period>& value, const range& rule)
 {

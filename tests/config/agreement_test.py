@@ -50,11 +50,22 @@ FULL = {
                                         "base": "decimal", "words": "low-byte-first", "before_words": "",
                                         "before_error": "", "before_piece": "", "dt": "DT", "ld": "LD", "wx": "WX",
                                         "wy": "WY", "wr": "WR", "wl": "WL"}}}],
-    "stations": [{"name": "s", "line": "l", "unit": 1, "response_timeout_ms": 100, "retries": 0},
+    "stations": [{"name": "s", "line": "l", "unit": 1, "response_timeout_ms": 100, "retries": 0,
+                  "status": {"plc": "b", "device": "D500", "order": "ABCD"}},
                  {"name": "t", "line": "l", "unit": 2}, {"name": "p", "line": "w", "unit": 7}],
     "routes": [{"name": "r", "station": "s", "table": "input", "first": 0, "count": 2, "plc": "a", "device": "D100",
                 "direction": "read", "period_ms": 500},
-               {"name": "q", "station": "p", "source": "DT100", "count": 2, "plc": "a", "device": "D300"}],
+               {"name": "q", "station": "p", "source": "DT100", "count": 2, "plc": "a", "device": "D300",
+                "on_loss": "value", "loss_value": [1, 2], "status": {"plc": "b", "device": "D510", "order": "CDAB"}},
+               {"name": "u", "station": "s", "table": "holding", "first": 9, "plc": "a", "device": "D310",
+                "direction": "write", "upstream": {"longest_silence_ms": 5000, "safe": [0]}},
+               {"name": "v", "from": {"plc": "a", "device": "D100"}, "count": 2, "plc": "b", "device": "D100"}],
+    "points": [{"name": "boiler.temp", "plc": "a", "device": "D100", "type": "int32", "order": "CDAB", "scale": 0.1,
+                "offset": -40, "unit": "Cel", "min": -40, "max": 120, "outside": "reject", "deadband": 0.5,
+                "longest_silence_ms": 30000, "writable": False},
+               {"name": "boiler.on", "plc": "a", "device": "D110", "type": "bool", "bit": 3, "writable": True},
+               {"name": "boiler.level", "plc": "a", "device": "D112", "min": 0, "max": 3000, "deadband_percent": 1},
+               {"name": "boiler.tag", "plc": "a", "device": "D120", "type": "text", "characters": 10}],
     "modbus_tcp": [{"listen": "127.0.0.1", "port": 1502, "units": [{"unit": 1, "plc": "a"}, {"unit": 2, "line": "m", "line_unit": 3, "plc": "", "channel": 1}],
                     "framing": "tcp", "other_units": "a", "max_clients": 10, "idle_timeout_s": 60, "max_outstanding": 8}],
     "plc_links": [{"name": "k", "plc": "c", "station": 1, "block": 0, "max_station": 4, "relay_words": 64,
@@ -68,7 +79,7 @@ FULL = {
 FILES = {"setup.txt": "LD M8411\n"}
 
 # What the reader says, and no cross-check.
-READER = re.compile(r"expected (a text|a whole number|true or false|one of|an array)|is (empty|no |longer)|too short"
+READER = re.compile(r"expected (a text|a whole number|a number|true or false|one of|an array)|is (empty|no |longer)|too short"
                     r"|has no")
 
 
@@ -105,6 +116,8 @@ def wrong_values(schema):
     if schema["type"] == "integer":
         return [schema["minimum"] - 1, schema["maximum"] + 1, str(schema["minimum"]), schema["minimum"] + 0.5, None,
                 True, [], {}, 1e300, -1e300, 2**64, -2**63]
+    if schema["type"] == "number":
+        return [schema["minimum"] - abs(schema["minimum"]) - 1, schema["maximum"] * 2, "1", None, True, [], {}]
     if schema["type"] == "string":
         short = [] if schema.get("minLength", 0) == 0 else ["x" * (schema["minLength"] - 1)]
         return [0, 1.5, None, False, ["x"], {"x": "x"}, "x" * (schema["maxLength"] + 1), *short]
@@ -118,6 +131,8 @@ def right_values(schema):
         return [True, False]
     if schema["type"] == "integer":
         return [schema["minimum"], schema["maximum"], float(schema["maximum"]), schema["maximum"] - 1]
+    if schema["type"] == "number":
+        return [schema["minimum"], schema["maximum"], schema["maximum"] / 3]
     if schema["type"] == "string":
         return ["x" * max(1, schema.get("minLength", 0)), "x" * schema["maxLength"]]
     return [[]] if schema["type"] == "array" else []

@@ -155,8 +155,8 @@ TEST_CASE("reader: unknown keys")
          "19 /lines/0/rs485/auto is no known key: known are enabled, rts_on_send, rts_after_send, rx_during_tx, "
          "delay_before_send_ms, delay_after_send_ms"},
         {R"("log": {)", R"("zzz": 0, "log": {)",
-         "79 /zzz is no known key: known are $schema, gateway, plcs, lines, stations, routes, modbus_tcp, plc_links, "
-         "dds, log, control"},
+         "79 /zzz is no known key: known are $schema, gateway, plcs, lines, stations, routes, points, modbus_tcp, "
+         "plc_links, dds, log, control"},
         // The value of an unknown key is not looked into.
         {R"("level": "debug")", R"("level": "debug", "colour": { "baudrate": [ {} ] })",
          "79 /log/colour is no known key: known are level"},
@@ -185,7 +185,6 @@ TEST_CASE("reader: required keys that are missing, with the line of their row")
           "2 /stations/0 has no \"unit\": MODBUS unit id to 247, MEWTOCOL station to 99, MEWTOCOL7 to 999; 0 = all of "
           "them, for write routes only\n"
           "4 /routes/0 has no \"name\": Name of the route: key of its DDS instance\n"
-          "4 /routes/0 has no \"station\": Name of the station\n"
           "4 /routes/0 has no \"plc\": Name of the simulated PLC\n"
           "4 /routes/0 has no \"device\": First device in its memory, for example D100, M0, X17 (octal); DT100, R1F, "
           "WR3 in an FP7");

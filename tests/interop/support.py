@@ -140,6 +140,7 @@ class Watch(Program):
         self.samples = []  # of registers, in the order of their arrival
         self.heard = []    # messages of serial lines
         self.statuses = []
+        self.points = {}   # the latest sample of each, by name
         with open(self.json_file, "wb") as output:
             super().__init__(test, "watch", [binary("PLC_GATEWAY"), "watch", "--json", "--domain", dds["domain"],
                                              "--interface", dds["interface"], "--partition", dds["partition"]], output)
@@ -154,6 +155,8 @@ class Watch(Program):
                 event = json.loads(line)
                 if event["event"] == "registers":
                     self.samples.append(event)
+                if event["event"] == "point":
+                    self.points[event["name"]] = event
                 if event["event"] == "status":
                     self.statuses.append(event)
                 if event["event"] == "message":

@@ -50,7 +50,53 @@ private:
     std::map<const plc::model*, plc::memory> memories_;  // large: one for each model
 };
 
-void check_routes(check_context& c, device_check& devices, occupied_devices& occupied);
+// Who fills devices of the PLCs, and who sends them to stations.
+struct device_users {
+    occupied_devices filled;
+    occupied_devices sent;
+};
+
+void check_routes(check_context& c, device_check& devices, device_users& users);
+
+// What a route says beside its way: loss, status and upstream. bits: that it has in memory.
+void check_route_options(check_context& c, device_check& devices, device_users& users, std::size_t i,
+                         const route_config& r, std::size_t bits);
+
+// Words that show how something does. row: "/stations/0", with "status".
+void check_status(check_context& c, device_check& devices, device_users& users, const std::string& row,
+                  const std::string& plc, const status_config& s, std::size_t words, std::string who);
+
+// Routes from one PLC to another.
+class copy_check {
+public:
+    copy_check(check_context& c, device_check& devices, device_users& users) : c_(c), devices_(devices), users_(users)
+    {
+    }
+
+    void add(std::size_t i, const route_config& r);
+    void check_circles();  // when all were added
+
+private:
+    struct copy {
+        std::size_t route;
+        std::pair<std::string, std::size_t> from;  // PLC and area
+        std::size_t first;
+        std::pair<std::string, std::size_t> to;
+        std::size_t at;
+        std::size_t bits;
+    };
+    bool shifts(const copy& start, const copy& last, std::size_t origin, std::size_t at, std::size_t bits,
+                std::size_t depth);
+
+    check_context& c_;
+    device_check& devices_;
+    device_users& users_;
+    std::vector<copy> copies_;
+    std::size_t steps_ = 0;
+};
+
+// Points come last: they know who fills their devices.
+void check_points(check_context& c, device_check& devices, const device_users& users);
 
 // The messages of general-purpose lines.
 void check_messages(check_context& c, device_check& devices, occupied_devices& occupied);

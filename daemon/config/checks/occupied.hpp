@@ -12,11 +12,23 @@ namespace plcgw::config {
 
 class occupied_devices {
 public:
+    // Others may write there as well: the taker sends to its station what they write.
+    enum class kind : std::uint8_t { only_source, shared };
+
     // who: 'route "pump.values"'. Gives those that fill some of these devices already, in the order of their taking.
-    std::vector<std::string> take(const std::string& plc, plc::place at, std::size_t bits, std::string who);
+    std::vector<std::string> take(const std::string& plc, plc::place at, std::size_t bits, std::string who,
+                                  kind how = kind::only_source);
+
+    struct taken {
+        std::string who;
+        bool whole{};  // all of the devices asked for are among its own
+        kind how{};
+    };
+    std::vector<taken> find(const std::string& plc, plc::place at, std::size_t bits) const;
 
 private:
     struct run {
+        std::size_t first;
         std::size_t bits;
         std::size_t taker;
     };
@@ -24,8 +36,14 @@ private:
         std::multimap<std::size_t, run> starts;
         std::size_t longest = 0;
     };
+    struct taker {
+        std::string who;
+        kind how;
+    };
+    std::vector<run> overlapping(const runs& of, std::size_t first, std::size_t bits) const;
+
     std::map<std::pair<std::string, std::size_t>, runs> areas_;
-    std::vector<std::string> takers_;
+    std::vector<taker> takers_;
 };
 
 }  // namespace plcgw::config

@@ -24,10 +24,10 @@ std::size_t check_modbus(check_context& c, std::size_t i, const route_config& r)
         return 1;
     const bool bits = modbus::is_bit_table(*r.table);
     const bool writable = *r.table == modbus::table::coils || *r.table == modbus::table::holding_registers;
-    if (r.way == direction::write && !writable)
+    if (writes(r.way) && !writable)
         c.complain(item("routes", i, "table"), "is read-only in MODBUS: a write route needs coil or holding");
-    const unsigned most = r.way == direction::read ? (bits ? modbus::max_read_bits : modbus::max_read_registers)
-                                                   : (bits ? modbus::max_write_coils : modbus::max_write_registers);
+    const unsigned most = !writes(r.way) ? (bits ? modbus::max_read_bits : modbus::max_read_registers)
+                                         : (bits ? modbus::max_write_coils : modbus::max_write_registers);
     if (r.count > most)
         c.complain(item("routes", i, "count"), "is " + std::to_string(r.count) + ", but one MODBUS request carries " +
                                                    std::to_string(most) + ": split the route");
@@ -36,15 +36,15 @@ std::size_t check_modbus(check_context& c, std::size_t i, const route_config& r)
     return bits ? r.count : std::size_t{16} * r.count;
 }
 
-mewtocol::block block_of(const route_config& r, const mewtocol::device& first)
+mewtocol::block block_of(const route_config& r, const mewtocol::device& first, direction way)
 {
-    const bool reads = r.way == direction::read;
+    const bool is_read = way == direction::read;
     if (const auto* const contact = std::get_if<mewtocol::contact>(&first))
-        return reads ? mewtocol::block{mewtocol::read_run{*contact, r.count}}
-                     : mewtocol::block{mewtocol::write_run{*contact, std::vector<bool>(r.count)}};
+        return is_read ? mewtocol::block{mewtocol::read_run{*contact, r.count}}
+                       : mewtocol::block{mewtocol::write_run{*contact, std::vector<bool>(r.count)}};
     const auto& [area, number] = std::get<mewtocol::word_device>(first);
-    return reads ? mewtocol::block{mewtocol::read_words{area, number, r.count}}
-                 : mewtocol::block{mewtocol::write_words{area, number, std::vector<std::uint16_t>(r.count)}};
+    return is_read ? mewtocol::block{mewtocol::read_words{area, number, r.count}}
+                   : mewtocol::block{mewtocol::write_words{area, number, std::vector<std::uint16_t>(r.count)}};
 }
 
 bool is_expressible(const mewtocol::block& b, const line_config& line)
@@ -55,23 +55,35 @@ bool is_expressible(const mewtocol::block& b, const line_config& line)
 }
 
 // Why no command does it: the first thing that an engineer can change.
-std::string inexpressible(const route_config& r, const mewtocol::device& first, const line_config& line)
+std::string inexpressible(const route_config& r, const mewtocol::device& first, const line_config& line, direction way)
 {
     const std::string name = mewtocol::to_string(first);
     const bool seven = line.protocol == line_protocol::mewtocol7_com;
     route_config one = r;
     one.count = 1;
-    if (mewtocol::is_contact(first) && seven && r.way == direction::write) {
+    if (mewtocol::is_contact(first) && seven && way == direction::write) {
         const bool whole = mewtocol::number(first) % 16 == 0 && r.count % 16 == 0;
         if (!whole)
             return "is " + name + ", but MEWTOCOL7-COM writes contacts as whole words: begin at bit 0 and give " +
                    "\"count\" a multiple of 16, or write the words";
     }
-    if (is_expressible(block_of(one, first), line))
+    if (is_expressible(block_of(one, first, way), line))
         return "is " + name + ", but from there the count goes beyond what " +
                (seven ? "MEWTOCOL7-COM" : "MEWTOCOL-COM") + " can address";
     return "is " + name + ", which " + (seven ? "MEWTOCOL7-COM" : "MEWTOCOL-COM") + " cannot " +
-           (r.way == direction::read ? "read" : "write");
+           (way == direction::read ? "read" : "write");
+}
+
+void check_commands(check_context& c, std::size_t i, const route_config& r, const mewtocol::device& first,
+                    const line_config& line)
+{
+    for (const direction way : {direction::read, direction::write}) {
+        const bool is_wanted = way == direction::read ? reads(r.way) : writes(r.way);
+        if (!is_wanted || is_expressible(block_of(r, first, way), line))
+            continue;
+        c.complain(item("routes", i, "source"), inexpressible(r, first, line, way));
+        return;
+    }
 }
 
 std::size_t check_mewtocol(check_context& c, std::size_t i, const route_config& r, const line_config& line)
@@ -96,8 +108,8 @@ std::size_t check_mewtocol(check_context& c, std::size_t i, const route_config& 
         c.complain(item("routes", i, "count"),
                    "is " + std::to_string(r.count) + ", but a route carries " + std::to_string(most) +
                        (numbered ? " contacts of timers or counters" : " words") + ": split it");
-    else if (!is_expressible(block_of(r, *first), line))
-        c.complain(item("routes", i, "source"), inexpressible(r, *first, line));
+    else
+        check_commands(c, i, r, *first, line);
     return contact != nullptr ? r.count : std::size_t{16} * r.count;
 }
 

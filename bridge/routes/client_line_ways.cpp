@@ -1,0 +1,137 @@
+// Which way values go on a client line: what each direction does with a change, an answer, a refusal and a loss.
+#include "bridge/routes/client_line.hpp"
+
+namespace plcgw {
+namespace {
+
+constexpr duration refused_write_pause = std::chrono::seconds(1);
+
+}  // namespace
+
+std::size_t client_line::add_route(route r, std::size_t station, duration period)
+{
+    const std::size_t index = routes_.size();
+    const bool both = r.way == direction::read_write;
+    if (both)
+        r.way = direction::read;
+    if (reads(r.way))
+        schedule_.add_poll(station, period);
+    else
+        schedule_.add_write(station);
+    r.words.resize((bits_of(r) + 15) / 16);
+    row& added = routes_.emplace_back();
+    added.station = station;
+    added.period = period;
+    if (r.way == direction::periodic_write)
+        added.first_write = r.plc->memory().watch_writes(r.at, bits_of(r));
+    added.content = std::move(r);
+    if (!both)
+        return index;
+
+    route writing = added.content;
+    writing.way = direction::write;
+    added.agreed = words_in_memory(writing);
+    const std::size_t half = add_route(std::move(writing), station, {});
+    routes_[index].partner = half;
+    routes_[half].partner = index;
+    routes_[half].half = true;
+    ++halves_;
+    return index;
+}
+
+// Somebody changed the memory of a route that reads and writes, and the station does not have that yet.
+bool client_line::is_to_be_written(const row& of) const
+{
+    if (!of.partner || of.half)
+        return false;
+    const bool may_be_due = schedule_.is_wanted(*of.partner) || of.content.plc->memory().has_changes();
+    return may_be_due && words_in_memory(of.content) != of.agreed;
+}
+
+// A read that must not undo what somebody wrote meanwhile.
+bool client_line::is_outdated(const row& of, const question& q) const
+{
+    return (of.partner && !of.half && q.asked_at < of.written_at) || is_to_be_written(of);
+}
+
+void client_line::was_stored(row& of, const question& q, time_point now)
+{
+    if (of.content.way == direction::periodic_write)
+        plan_next_write(of, q, now, words_in_memory(of.content) != of.content.words);
+    if (!of.partner)
+        return;
+    row& read = reading(of);
+    read.agreed = of.half ? of.content.words : words_in_memory(of.content);
+    if (!of.half)
+        return;
+    read.written_at = now;
+    schedule_.ask(*of.partner, now);  // what the station made of it is read back
+}
+
+void client_line::was_refused(row& of, const question& q, time_point now, bool may_pass)
+{
+    if (may_pass)
+        schedule_.ask(std::get<schedule::turn>(q.origin).item, now + refused_write_pause);
+    else if (of.content.way == direction::periodic_write)
+        plan_next_write(of, q, now, false);
+    else if (of.half)  // the next read brings back what the station has
+        reading(of).agreed = words_in_memory(of.content);
+}
+
+// is_due: the devices changed since the question was asked, and that is to be written at once.
+void client_line::plan_next_write(row& of, const question& q, time_point now, bool is_due)
+{
+    if (of.next_write <= q.asked_at)
+        of.next_write += of.period;
+    if (of.next_write <= now)
+        of.next_write = now + of.period;
+    if (!is_due)
+        schedule_.ask(std::get<schedule::turn>(q.origin).item, of.next_write);
+}
+
+// A value that nobody can renew now. What is only written is as good as it was.
+void client_line::lose(row& of, const std::string& why, std::uint16_t code)
+{
+    route& r = of.content;
+    if (!reads(r.way))
+        return;
+    if (r.substitute.empty() || is_to_be_written(of)) {
+        set_quality(of, quality::comm_error, why, code);
+        return;
+    }
+    show_substitute(r);
+    of.agreed = words_in_memory(r);
+    set_quality(of, quality::substituted, why, code);
+}
+
+bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
+{
+    bool due = false;
+    for (std::size_t i = 0; i < routes_.size(); ++i) {
+        row& of = routes_[i];
+        if (!writes(of.content.way) || !touches(of.content, plc, changed))
+            continue;
+        if (of.half && words_in_memory(of.content) == reading(of).agreed)
+            continue;  // it came from the station
+        of.first_write.reset();
+        schedule_.ask(i);
+        due = true;
+    }
+    return due;
+}
+
+bool client_line::memory_written()
+{
+    bool due = false;
+    for (std::size_t i = 0; i < routes_.size(); ++i) {
+        row& of = routes_[i];
+        if (!of.first_write || !of.content.plc->memory().take_written(*of.first_write))
+            continue;
+        of.first_write.reset();
+        schedule_.ask(i);
+        due = true;
+    }
+    return due;
+}
+
+}  // namespace plcgw

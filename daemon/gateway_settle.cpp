@@ -1,0 +1,109 @@
+// What follows an exchange on a line or a request of a client: changes are drained, and said.
+#include "daemon/gateway.hpp"
+#include "daemon/log.hpp"
+
+#include <algorithm>
+
+namespace plcgw {
+namespace {
+
+constexpr unsigned most_copy_rounds = 64;  // of copies of copies; what is left then is copied the next time
+
+void log_event(const line_event& event)
+{
+    if (event.level == line_event::severity::warning)
+        log::warning("{}", event.text);
+    else
+        log::info("{}", event.text);
+}
+
+}  // namespace
+
+void gateway::settle(running_line& line)
+{
+    for (const line_event& event : line.routes.take_events())
+        log_event(event);
+    line.gate.deliver();
+    line.statuses.show(wall_now());
+    settle_memory();
+    say(line.routes.take_samples(now()));
+}
+
+void gateway::settle(message_line& line)
+{
+    settle_memory();
+    const std::vector<sample> samples = line.content.take_samples(now());
+    for (const line_event& event : line.content.take_events())
+        log_event(event);
+    for (const serial_message& each : line.content.take_messages())
+        dds_.publish(each);
+    say(samples);
+}
+
+void gateway::say(const std::vector<sample>& samples)
+{
+    for (const sample& each : samples)
+        dds_.publish(each);
+    if (samples.empty())
+        return;
+    blocks_.qualities_changed();
+    blocks_.publish();
+    points_.say(samples);
+    points_.publish();
+}
+
+void gateway::settle_memory()
+{
+    fp7_ports_.look();
+    bool changed_any = false;
+    note_writes();
+    for (unsigned round = 0; round < most_copy_rounds && drain_changes(); ++round) {
+        changed_any = true;
+        note_writes();  // copies write, too
+    }
+    if (!changed_any)
+        return;
+    if (links_)
+        links_->send();
+    for (const auto& program : programs_)
+        program->look();
+    blocks_.publish();
+    points_.publish();
+}
+
+void gateway::note_writes()
+{
+    bool written_any = false;
+    for (const auto& plc : plcs_)
+        written_any = plc->memory().take_written() || written_any;
+    if (!written_any)
+        return;
+    upstream_.written();
+    for (const auto& line : lines_)
+        if (line->routes.memory_written())
+            line->driver->wake();
+}
+
+bool gateway::drain_changes()
+{
+    bool changed_any = false;
+    for (const auto& plc : plcs_) {
+        for (const plc::change& changed : plc->memory().take_changes()) {
+            changed_any = true;
+            copies_.memory_changed(*plc, changed);
+            for (const auto& line : lines_)
+                if (line->routes.memory_changed(*plc, changed))
+                    line->driver->wake();
+            for (const auto& line : message_lines_)
+                if (line->content.memory_changed(*plc, changed, now()))
+                    line->wake();
+            blocks_.memory_changed(*plc, changed);
+            points_.memory_changed(*plc, changed);
+            if (links_)
+                links_->memory_changed(*plc, changed);
+        }
+    }
+    return changed_any;
+}
+
+}  // namespace plcgw
