@@ -25,10 +25,13 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(MODULES)}; none: all but smoke")
     parser.add_argument("--build", default=ROOT / "build/release", type=Path, help="build folder of the programs")
-    parser.add_argument("--seconds", type=float, default=20, help="length of one window of measurement")
+    parser.add_argument("--seconds", type=float, default=20, help="length of one measurement")
+    parser.add_argument("--slice", type=float, default=4, help="seconds that the machine has to be quiet for at a time")
     parser.add_argument("--check", action="store_true", help="exit status 2 when a target is missed")
     parser.add_argument("--realtime", action="store_true",
                         help="measured programs run before all ordinary ones: where others use the machine, too")
+    parser.add_argument("--tcp", action="store_true", help="the same wires behind device servers, not on ptys: a busy "
+                        "machine delays those less; the gateway only")
     parser.add_argument("--bauds", type=numbers, help="bus: 9600,115200")
     parser.add_argument("--programs", help="bus: gateway,libmodbus,pymodbus")
     parser.add_argument("--delivery", choices=("byte", "fifo", "frame"), default="byte",
@@ -42,7 +45,7 @@ def arguments():
 
 def main():
     # Imported here: sys.path has this folder first, and support may say that it cannot measure.
-    from support import REALTIME, CannotMeasure, Table
+    from support import REALTIME, Bench, CannotMeasure, Table
     options = arguments()
     if options.realtime:
         os.environ[REALTIME] = "1"
@@ -50,6 +53,7 @@ def main():
         os.environ.setdefault(variable, str(options.build / path))
         if not os.access(os.environ[variable], os.X_OK):
             sys.exit(f"{os.environ[variable]} is missing: ./test.sh --bench builds it")
+    Bench.over_tcp = options.tcp
     failed = False
     for name in options.name or list(MODULES)[:-1]:
         try:

@@ -99,8 +99,12 @@ void watch(const field::unique_fd& poller, int fd, void* what)
 void run(const json& plan, std::ofstream& reports)
 {
     wire_ports ports;
-    for (const json& each : plan.at("lines"))
-        ports.push_back(std::make_unique<wire_port>(each.at("link").get<std::string>(), wire_of(each)));
+    for (const json& each : plan.at("lines")) {
+        if (each.contains("port"))
+            ports.push_back(std::make_unique<wire_port>(each["port"].get<std::uint16_t>(), wire_of(each)));
+        else
+            ports.push_back(std::make_unique<wire_port>(each.at("link").get<std::string>(), wire_of(each)));
+    }
 
     const field::unique_fd signals = field::signals_as_descriptor({SIGTERM, SIGINT, SIGUSR1});
     const field::unique_fd poller(field::check(::epoll_create1(EPOLL_CLOEXEC), "epoll_create1"));
@@ -127,7 +131,11 @@ void run(const json& plan, std::ofstream& reports)
                 continue;
             }
             if (what != nullptr) {
-                static_cast<wire_port*>(what)->listen(now());
+                auto& port = *static_cast<wire_port*>(what);
+                if (port.accept())
+                    watch(poller, port.fd(), &port);
+                else
+                    port.listen(now());
                 continue;
             }
             const int signal = field::next_signal(signals);

@@ -5,7 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from support import Bench, CannotMeasure, Program, Table, configuration, efficiency, knows_merge, quiet_window, station, wait_for
+from support import (Bench, CannotMeasure, Program, Table, configuration, efficiency, knows_merge, percentile,
+                     quiet_window, station, typical, wait_for)
 
 SIZES = (10, 20, 33, 45, 58, 71, 84, 97, 110, 125)
 BLOCKS = [(300 * i, size) for i, size in enumerate(SIZES)]  # too far apart for one request to hold two
@@ -52,16 +53,16 @@ def has_pymodbus():
                           check=False).returncode == 0
 
 
-def measure(start, baud, delivery, seconds, turnaround_us):
+def measure(start, baud, options):
     with Bench() as bench:
-        wires = bench.wires({"baud": baud, "delivery": delivery,
-                             "stations": [{"unit": 1, "turnaround_us": turnaround_us}]})
+        wires = bench.wires({"baud": baud, "delivery": options.delivery,
+                             "stations": [{"unit": 1, "turnaround_us": options.turnaround_us}]})
         program = start(bench, wires)
         try:
             wait_for("every block is read", lambda: wires.report()["lines"][0]["blocks"] == len(BLOCKS))
         except CannotMeasure as why:
             raise CannotMeasure(f"{why}: {program.log()[-1000:]}") from why
-        return quiet_window(f"{program.name} at {baud}", wires, program, seconds)
+        return quiet_window(f"{program.name} at {baud}", wires, program, options)
 
 
 def run(options):
@@ -69,19 +70,20 @@ def run(options):
     if not has_pymodbus():
         print("bus: left out: /usr/bin/python3 has no pymodbus", file=sys.stderr)
         del programs["pymodbus"]
-    chosen = options.programs.split(",") if options.programs else list(programs)
+    if options.tcp:
+        programs = {"gateway": gateway}
+    chosen = [each for each in options.programs.split(",") if each in programs] if options.programs else programs
     table = Table(f"bus: 10 blocks of 10 to 125 registers, line saturated, {options.seconds} s each, delivery by "
-                  f"{options.delivery}", ("baud", 7), ("program", 10), ("used/bound", 10), ("requests", 8),
+                  f"{options.delivery}", ("baud", 7), ("program", 10), ("used/bound", 10), ("typical", 8), ("requests", 8),
                   ("too short", 9), ("collisions", 10), ("least silence/rule", 18), ("beyond rule us p50", 18),
-                  ("p99", 7), ("wire late us", 12))
+                  ("p99", 7), ("pty us", 6))
     for baud in options.bauds or BAUDS:
         for name in chosen:
-            window = measure(programs[name], baud, options.delivery, options.seconds, options.turnaround_us)
+            window = measure(programs[name], baud, options)
             line, used = window.line, efficiency(window.line)
-            table.row(baud, name, f"{used:.2%}", line["answered"], line["short_silences"], line["collisions"],
-                      f"{line['least_silence_us'] / line['rule_us']:.3f}", f"{line['excess_us']['p50']:.0f}",
-                      f"{line['excess_us']['p99']:.0f}", f"{window.machine['mean_late_us']:.0f}",
-                      spoiled=window.spoiled)
+            table.row(baud, name, f"{used:.2%}", f"{typical(line):.2%}", line["answered"], line["short_silences"], line["collisions"],
+                      f"{line['least_silence_us'] / line['rule_us']:.3f}", f"{percentile(line['excess_us'], 50):.0f}",
+                      f"{percentile(line['excess_us'], 99):.0f}", f"{window.hop_us:.0f}", spoiled=window.spoiled)
             if name != "gateway":
                 continue
             Table.target(line["short_silences"] + line["collisions"] + line["torn_requests"] == 0,

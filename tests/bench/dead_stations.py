@@ -22,7 +22,7 @@ def measure(dead, options):
         gateway = bench.gateway(configuration(bench, wires, stations, routes, response_timeout_ms=300))
         wait_for(f"{dead} stations are found dead", lambda: gateway.log().count("does not answer") >= dead, 60)
         wait_for("the others are read", lambda: wires.report()["lines"][0]["blocks"] == STATIONS - dead)
-        return quiet_window(f"{dead} dead", wires, gateway, options.seconds)
+        return quiet_window(f"{dead} dead", wires, gateway, options)
 
 
 def run(options):

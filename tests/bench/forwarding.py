@@ -6,7 +6,8 @@ import struct
 import time
 
 import bus
-from support import Bench, CannotMeasure, Table, configuration, efficiency, knows_merge, percentile, quiet_window, station, wait_for
+from support import (Bench, CannotMeasure, Table, configuration, efficiency, knows_merge, percentile, quiet_window,
+                     station, wait_for)
 
 CLIENTS = (1, 2, 4, 8, 16, 32, 64)
 BAUD = 115200
@@ -80,7 +81,7 @@ def measure(count, options):
         wait_for("every block is read", lambda: wires.report()["lines"][0]["blocks"] >= len(bus.BLOCKS))
         clients = Clients(configured["modbus_tcp"][0]["port"], count)
         clients.during(0.5)
-        return quiet_window(f"{count} clients", wires, gateway, options.seconds, clients.during)
+        return quiet_window(f"{count} clients", wires, gateway, options, clients.during)
 
 
 def run(options):
@@ -90,7 +91,9 @@ def run(options):
                   ("least/most", 10), ("refused", 7), ("too short", 9))
     for count in CLIENTS:
         window = measure(count, options)
-        line, (latencies, refused) = window.line, window.result
+        line = window.line
+        latencies = [sum(of, []) for of in zip(*(slice_latencies for slice_latencies, _ in window.results))]
+        refused = sum(slice_refused for _, slice_refused in window.results)
         polled, forwarded = (line["functions"].get(code, {"answered": 0, "ideal_us": 0}) for code in ("3", "4"))
         if not forwarded["answered"] or not all(latencies):
             raise CannotMeasure(f"{count} clients: some got no answer")

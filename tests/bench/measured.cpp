@@ -9,15 +9,6 @@ namespace {
 
 double microseconds(nanoseconds time) { return static_cast<double>(time) / 1000; }
 
-nlohmann::json percentiles(std::vector<nanoseconds> values)
-{
-    if (values.empty())
-        return nullptr;
-    std::sort(values.begin(), values.end());
-    const auto at = [&](std::size_t percent) { return microseconds(values[(values.size() - 1) * percent / 100]); };
-    return {{"p50", at(50)}, {"p90", at(90)}, {"p99", at(99)}, {"max", at(100)}};
-}
-
 nlohmann::json shares(const std::map<unsigned, std::pair<std::uint64_t, nanoseconds>>& of)
 {
     nlohmann::json listed = nlohmann::json::object();
@@ -59,6 +50,9 @@ nlohmann::json measured::report() const
     nlohmann::json writes = nlohmann::json::array();
     for (const seen_write& each : writes_)
         writes.push_back({each.unit, each.first, each.value, each.end});
+    nlohmann::json excess = nlohmann::json::array();
+    for (const nanoseconds each : excess_)
+        excess.push_back(microseconds(each));
     return {{"requests", requests},
             {"answered", answered_},
             {"unanswered", unanswered},
@@ -71,7 +65,7 @@ nlohmann::json measured::report() const
             {"elapsed_us", microseconds(last_end_ - first_end_)},
             {"ideal_us", microseconds(ideal_)},
             {"longest_us", microseconds(longest_)},
-            {"excess_us", percentiles(excess_)},
+            {"excess_us", excess},
             {"units", shares(units_)},
             {"functions", shares(functions_)},
             {"writes", writes},

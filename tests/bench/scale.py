@@ -71,12 +71,16 @@ def measure(name, options):
         listened = time.monotonic_ns()
         wait_for(f"all {plant.routes} routes are up", lambda: status.all_up(plant.routes), 300)
         last = max(each["last_new_block_ns"] for each in wires.report()["lines"])
-        cpu = [gateway.cpu_seconds()]
-        window = quiet_window(name, wires, gateway, options.seconds, lambda seconds: (
-            cpu.append(gateway.cpu_seconds()), time.sleep(seconds), cpu.append(gateway.cpu_seconds())))
+
+        def used_processor(seconds):
+            before = gateway.cpu_seconds()
+            time.sleep(seconds)
+            return gateway.cpu_seconds() - before
+
+        window = quiet_window(name, wires, gateway, options, used_processor)
         answered = sum(each["answered"] for each in window.lines)
         return {"window": window, "listens": (listened - began) / 1e9, "all good": (last - began) / 1e9,
-                "cpu": (cpu[-1] - cpu[-2]) / window.seconds, "MB": gateway.resident_bytes() / 1e6,
+                "cpu": sum(window.results) / window.seconds, "MB": gateway.resident_bytes() / 1e6,
                 "rate": answered / window.seconds, "wanted": plant.routes / PERIOD_MS * 1000,
                 "short": sum(each["short_silences"] for each in window.lines)}
 

@@ -4,7 +4,7 @@ The machine may be busy and the gateway slow: how much of the wire it uses does 
 """
 
 import bus
-from support import CannotMeasure, Window, wait_for, Bench
+from support import Bench, CannotMeasure, Slice, wait_for
 
 BAUD = 57600
 SECONDS = 3
@@ -15,7 +15,7 @@ def run(options):
         wires = bench.wires({"baud": BAUD, "stations": [{"unit": 1, "turnaround_us": options.turnaround_us}]})
         gateway = bus.gateway(bench, wires)
         wait_for("every block is read", lambda: wires.report()["lines"][0]["blocks"] == len(bus.BLOCKS))
-        line = Window(wires, gateway, SECONDS).line
+        line = Slice(wires, gateway, SECONDS).lines[0]
     found = [what for what, wrong in {
         "silences are too short": line["short_silences"] != 0,
         "bytes collided, or requests were torn or damaged": line["collisions"] + line["torn_requests"]

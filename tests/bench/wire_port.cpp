@@ -3,21 +3,56 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <stdexcept>
+#include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 namespace plcgw::bench {
 
-wire_port::wire_port(std::filesystem::path link, wire on) : link_(std::move(link)), wire_(std::move(on))
+using field::check;
+
+wire_port::wire_port(const std::filesystem::path& link, wire on) : link_(link), wire_(std::move(on))
 {
+    pty_pair pty;
     if (std::filesystem::is_symlink(link_))
         std::filesystem::remove(link_);
-    std::filesystem::create_symlink(pty_.device, link_);
+    std::filesystem::create_symlink(pty.device, link_);
+    fd_ = std::move(pty.ours);
+    theirs_ = std::move(pty.theirs);
+}
+
+wire_port::wire_port(std::uint16_t port, wire on)
+    : wire_(std::move(on)), fd_(check(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), "socket")),
+      accepts_(true)
+{
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    check(::bind(fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address), "bind");
+    check(::listen(fd(), 1), "listen");
 }
 
 wire_port::~wire_port()
 {
     std::error_code ignored;
-    std::filesystem::remove(link_, ignored);
+    if (!link_.empty())
+        std::filesystem::remove(link_, ignored);
+}
+
+bool wire_port::accept()
+{
+    if (!accepts_)
+        return false;
+    field::unique_fd client(check(::accept4(fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC), "accept4"));
+    const int at_once = 1;
+    check(::setsockopt(client.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once), "TCP_NODELAY");
+    std::swap(fd_, client);
+    accepts_ = false;
+    return true;
 }
 
 void wire_port::hand_over(nanoseconds now, stillness& machine)
@@ -33,6 +68,8 @@ void wire_port::listen(nanoseconds now)
 {
     std::array<std::uint8_t, 1024> room{};
     const auto size = ::read(fd(), room.data(), room.size());
+    if (size == 0 && link_.empty())
+        throw std::runtime_error("the client closed its connection");
     if (size > 0)
         wire_.heard(now, byte_span(room).first(static_cast<std::size_t>(size)));
 }

@@ -1,4 +1,4 @@
-// A wire and the pty at which the client finds it as its serial port.
+// A wire, and where its client finds it: a pty as serial port, or a TCP port as behind a device server.
 #pragma once
 
 #include "tests/bench/pty.hpp"
@@ -11,22 +11,26 @@ namespace plcgw::bench {
 
 class wire_port {
 public:
-    wire_port(std::filesystem::path link, wire on);
+    wire_port(const std::filesystem::path& link, wire on);
+    wire_port(std::uint16_t port, wire on);  // of 127.0.0.1; for one client
     ~wire_port();
     wire_port(const wire_port&) = delete;
     wire_port& operator=(const wire_port&) = delete;
 
-    int fd() const { return pty_.ours.get(); }
+    int fd() const { return fd_.get(); }
     void hand_over(nanoseconds now, stillness& machine);  // what is due
+    bool accept();                                        // a client connected: fd() is another one now
     void listen(nanoseconds now);                         // to what the client sent
     nanoseconds deadline() const { return wire_.deadline(); }
     nlohmann::json report();
     void begin() { wire_.window().begin(); }
 
 private:
-    std::filesystem::path link_;
+    std::filesystem::path link_;  // empty: TCP
     wire wire_;
-    pty_pair pty_;
+    field::unique_fd fd_;
+    field::unique_fd theirs_;  // of a pty
+    bool accepts_ = false;     // fd_ waits for a client
 };
 
 }  // namespace plcgw::bench

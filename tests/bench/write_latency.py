@@ -6,7 +6,8 @@ import struct
 import time
 
 import bus
-from support import Bench, CannotMeasure, Table, ask, configuration, knows_merge, percentile, quiet_window, station, wait_for
+from support import (Bench, CannotMeasure, Table, ask, configuration, knows_merge, percentile, quiet_window, station,
+                     wait_for)
 
 BAUDS = (19200, 115200)
 WRITTEN = 4000  # register of the station
@@ -42,10 +43,11 @@ class Writer:
 
 def latencies(window):
     """Microseconds of each write of the window."""
+    asked = [each for of in window.results for each in of]
     done = {value: end for _, first, value, end in window.line["writes"] if first == WRITTEN}
-    if missing := [value for value, _ in window.result if value not in done]:
-        raise CannotMeasure(f"{len(missing)} of {len(window.result)} writes were not on the wire")
-    return [(done[value] - began) / 1000 for value, began in window.result]
+    if missing := [value for value, _ in asked if value not in done]:
+        raise CannotMeasure(f"{len(missing)} of {len(asked)} writes were not on the wire")
+    return [(done[value] - began) / 1000 for value, began in asked]
 
 
 def measure(baud, options):
@@ -59,7 +61,7 @@ def measure(baud, options):
                         and lines)
         longest = max(seen[0]["longest_us"], bus.longest_us(baud, options.turnaround_us)) / 1e6
         writer = Writer(gateway.configuration["modbus_tcp"][0]["port"], longest)
-        return quiet_window(f"writes at {baud}", wires, gateway, options.seconds, writer.during)
+        return quiet_window(f"writes at {baud}", wires, gateway, options, writer.during)
 
 
 def run(options):
