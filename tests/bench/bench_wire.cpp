@@ -132,10 +132,8 @@ void run(const json& plan, std::ofstream& reports)
             }
             if (what != nullptr) {
                 auto& port = *static_cast<wire_port*>(what);
-                if (port.accept())
+                if (port.look(now()))
                     watch(poller, port.fd(), &port);
-                else
-                    port.listen(now());
                 continue;
             }
             const int signal = field::next_signal(signals);
@@ -152,6 +150,7 @@ void run(const json& plan, std::ofstream& reports)
 
 int main(int argc, char** argv)
 try {
+    std::signal(SIGPIPE, SIG_IGN);  // a client that left is no end
     if (argc != 3) {
         std::cerr << "usage: bench-wire PLAN.json REPORTS\n";
         return 2;

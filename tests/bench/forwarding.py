@@ -89,7 +89,7 @@ def run(options):
                   f"{POLLS:.0%} of the line, {options.seconds} s each", ("clients", 7), ("requests/s", 10),
                   ("bound", 7), ("rate/bound", 10), ("line used", 9), ("polls kept", 10), ("p50 ms", 8), ("p99 ms", 8),
                   ("least/most", 10), ("refused", 7), ("too short", 9))
-    for count in CLIENTS:
+    for count in options.clients or CLIENTS:
         window = measure(count, options)
         line = window.line
         latencies = [sum(of, []) for of in zip(*(slice_latencies for slice_latencies, _ in window.results))]

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cerrno>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <stdexcept>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <utility>
@@ -24,17 +24,7 @@ wire_port::wire_port(const std::filesystem::path& link, wire on) : link_(link), 
     theirs_ = std::move(pty.theirs);
 }
 
-wire_port::wire_port(std::uint16_t port, wire on)
-    : wire_(std::move(on)), fd_(check(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), "socket")),
-      accepts_(true)
-{
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    check(::bind(fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address), "bind");
-    check(::listen(fd(), 1), "listen");
-}
+wire_port::wire_port(std::uint16_t port, wire on) : wire_(std::move(on)), port_(port) { wait_for_client(); }
 
 wire_port::~wire_port()
 {
@@ -43,16 +33,18 @@ wire_port::~wire_port()
         std::filesystem::remove(link_, ignored);
 }
 
-bool wire_port::accept()
+void wire_port::wait_for_client()
 {
-    if (!accepts_)
-        return false;
-    field::unique_fd client(check(::accept4(fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC), "accept4"));
-    const int at_once = 1;
-    check(::setsockopt(client.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once), "TCP_NODELAY");
-    std::swap(fd_, client);
-    accepts_ = false;
-    return true;
+    fd_ = field::unique_fd(check(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0), "socket"));
+    const int again = 1;
+    check(::setsockopt(fd(), SOL_SOCKET, SO_REUSEADDR, &again, sizeof again), "SO_REUSEADDR");
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port_);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    check(::bind(fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address), "bind");
+    check(::listen(fd(), 1), "listen");
+    accepts_ = true;
 }
 
 void wire_port::hand_over(nanoseconds now, stillness& machine)
@@ -61,17 +53,31 @@ void wire_port::hand_over(nanoseconds now, stillness& machine)
         return;
     machine.note_late(now - deadline());
     const byte_vector chunk = wire_.due(now);
+    if (accepts_)
+        return;
     [[maybe_unused]] const auto written = ::write(fd(), chunk.data(), chunk.size());
 }
 
-void wire_port::listen(nanoseconds now)
+bool wire_port::look(nanoseconds now)
 {
+    if (accepts_) {
+        field::unique_fd client(check(::accept4(fd(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC), "accept4"));
+        const int at_once = 1;
+        check(::setsockopt(client.get(), IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof at_once), "TCP_NODELAY");
+        std::swap(fd_, client);
+        accepts_ = false;
+        return true;
+    }
     std::array<std::uint8_t, 1024> room{};
     const auto size = ::read(fd(), room.data(), room.size());
-    if (size == 0 && link_.empty())
-        throw std::runtime_error("the client closed its connection");
     if (size > 0)
         wire_.heard(now, byte_span(room).first(static_cast<std::size_t>(size)));
+    else if (port_ != 0 && (size == 0 || errno != EAGAIN)) {
+        fd_ = {};
+        wait_for_client();
+        return true;
+    }
+    return false;
 }
 
 nlohmann::json wire_port::report()
