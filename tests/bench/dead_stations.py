@@ -1,5 +1,7 @@
 """The pace of the healthy stations of a line on which others are dead."""
 
+import argparse
+
 from support import Bench, Table, configuration, efficiency, quiet_window, station, wait_for
 
 STATIONS = 20
@@ -8,6 +10,7 @@ REGISTERS = 20
 DEAD = (0, 2, 10, 18)
 PROBES = 0.05  # of the line's time, at most, for the dead
 TARGET = 0.9
+SLICE = 10     # seconds
 
 
 def measure(dead, options):
@@ -22,7 +25,9 @@ def measure(dead, options):
         gateway = bench.gateway(configuration(bench, wires, stations, routes, response_timeout_ms=300))
         wait_for(f"{dead} stations are found dead", lambda: gateway.log().count("does not answer") >= dead, 60)
         wait_for("the others are read", lambda: wires.report()["lines"][0]["blocks"] == STATIONS - dead)
-        return quiet_window(f"{dead} dead", wires, gateway, options)
+        # Long enough for a probe and the time that it has to wait for.
+        longer = argparse.Namespace(**{**vars(options), "slice": max(options.slice, SLICE)})
+        return quiet_window(f"{dead} dead", wires, gateway, longer)
 
 
 def run(options):
