@@ -32,16 +32,18 @@ def measure(dead, options):
 
 def run(options):
     table = Table(f"dead: {STATIONS} stations at {BAUD}, saturated, {options.seconds} s each", ("dead", 5),
-                  ("healthy reads/s", 15), ("used/bound", 10), ("wire allows", 11), ("used/allowed", 12),
+                  ("healthy reads/s", 15), ("used/bound", 10), ("wire allows", 11), ("used/allowed", 12), ("of none dead", 12),
                   ("probes", 6), ("slowest/fastest", 15), ("too short", 9))
+    unharmed = None  # used while nobody is dead: what this machine leaves of the wire
     for dead in DEAD:
         window = measure(dead, options)
         line, allowed = window.line, 1 - (PROBES if dead else 0)
         used = efficiency(line)
+        of_none_dead = used / allowed / (unharmed := unharmed or used)
         each = [of["answered"] for of in line["units"].values()]
         table.row(f"{dead / STATIONS:.0%}", f"{line['answered'] / line['elapsed_us'] * 1e6:.2f}", f"{used:.2%}",
-                  f"{allowed:.0%}", f"{used / allowed:.2%}", line["unanswered"], f"{min(each) / max(each):.3f}",
-                  line["short_silences"], spoiled=window.spoiled)
+                  f"{allowed:.0%}", f"{used / allowed:.2%}", f"{of_none_dead:.2%}", line["unanswered"],
+                  f"{min(each) / max(each):.3f}", line["short_silences"], spoiled=window.spoiled)
         Table.target(used / allowed >= TARGET, f"dead: with {dead} dead the healthy use {used / allowed:.2%} of what "
                                                f"the wire allows them, target {TARGET:.0%}")
         Table.target(line["short_silences"] == 0, f"dead: {line['short_silences']} silences are too short")
