@@ -51,7 +51,7 @@ def main():
     if options.realtime:
         os.environ[REALTIME] = "1"
     for variable, path in PROGRAMS.items():
-        os.environ.setdefault(variable, str(options.build / path))
+        os.environ.setdefault(variable, str(options.build.resolve() / path))
         if not os.access(os.environ[variable], os.X_OK):
             sys.exit(f"{os.environ[variable]} is missing: ./test.sh --bench builds it")
     Bench.over_tcp = options.tcp
