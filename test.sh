@@ -1,14 +1,27 @@
 #!/bin/bash
 # Tests plc-gateway: installs the missing packages, builds (debug, ASan and UBSan, warnings are errors), runs all of CTest.
 # usage: ./test.sh [--quick] [--only REGEX]
+#        ./test.sh --bench [NAME | OPTION]...
 #   --quick        leave out the tests that are labelled slow
 #   --only REGEX   run the tests whose name matches, and what they need
+#   --bench        benchmarks of the release build instead, on emulated serial lines: tests/bench/README.md;
+#                  --bench --help lists them and their options
 set -euo pipefail
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
 usage() {
-    sed -n '2,5s/^# //p' "${BASH_SOURCE[0]}"
+    sed -n '2,8s/^# //p' "${BASH_SOURCE[0]}"
+}
+
+# Everything behind --bench is the benchmarks' own.
+run_benchmarks() {
+    cd "$root"
+    scripts/install-packages.sh test
+    export CCACHE_BASEDIR=$root CCACHE_COMPILERCHECK=content CCACHE_SLOPPINESS=locale
+    cmake --preset release
+    cmake --build --preset release --target bench_programs
+    exec /usr/bin/python3 -B tests/bench/bench.py "$@"
 }
 
 selection=()
@@ -19,6 +32,10 @@ while [[ $# -gt 0 ]]; do
         exit 0
         ;;
     --quick) selection+=(--label-exclude '^slow$') ;;
+    --bench)
+        shift
+        run_benchmarks "$@"
+        ;;
     --only)
         [[ $# -ge 2 ]] || { usage >&2; exit 2; }
         selection+=(--tests-regex "$2")
