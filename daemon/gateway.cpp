@@ -31,7 +31,7 @@ std::string_view cure_of(boost::system::error_code ec)
 
 gateway::gateway(asio::io_context& loop, const config::loaded& from)
     : loop_(loop), config_(from.config), started_(wall_now()), fp7_ports_(loop, [this] { settle_memory(); }),
-      upstream_(loop, [this] { settle_memory(); }), dds_(loop, config_, from.hash),
+      upstream_(loop, [this] { settle_memory(); }), through_(loop.get_executor()), dds_(loop, config_, from.hash),
       blocks_(lines_, message_lines_, dds_), points_(loop, dds_), second_(loop), watchdog_(loop)
 {
     make_plcs(from.folder);
@@ -82,6 +82,7 @@ void gateway::make_lines()
         const std::size_t index = lines_.size();
         lines_.push_back(
             std::make_unique<running_line>(loop_, config_, each, plc, [this, index] { settle(*lines_[index]); }));
+        through_.add_line(lines_.back()->routes, *lines_.back()->driver);
     }
     const auto gate = [this](const std::string& name) -> forward_gate& { return find_line(name)->gate; };
     for (const line_config& each : config_.lines)
@@ -130,7 +131,7 @@ void gateway::make_servers()
             units[unit] = target_of({.unit = unit, .plc = each.other_units, .line = each.other_units});
         for (const unit_config& unit : each.units)
             units[unit.unit] = target_of(unit);
-        servers_.push_back(std::make_unique<tcp_server>(loop_, each, units, [this] { settle_memory(); }));
+        servers_.push_back(std::make_unique<tcp_server>(loop_, each, units, through_, [this] { settle_memory(); }));
     }
 }
 

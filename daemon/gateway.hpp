@@ -69,6 +69,7 @@ private:
     std::vector<std::unique_ptr<tcp_server>> servers_;
     plc_copies copies_;
     upstream_watch upstream_;
+    through_writes through_;
     std::unique_ptr<plc_links> links_;  // of PLCs; null without any
     dds_link dds_;
     published_blocks blocks_;

@@ -24,6 +24,7 @@ void gateway::settle(running_line& line)
     for (const line_event& event : line.routes.take_events())
         log_event(event);
     line.gate.deliver();
+    through_.deliver();
     line.statuses.show(wall_now());
     settle_memory();
     say(line.routes.take_samples(now()));

@@ -39,11 +39,12 @@ void set_options(tcp::socket& client)
 }  // namespace
 
 tcp_server::tcp_server(asio::io_context& loop, tcp_server_config config, const unit_table& units,
-                       std::function<void()> settle)
+                       through_writes& through, std::function<void()> settle)
     : config_(std::move(config)), acceptor_(loop), pause_(loop)
 {
     service_.endpoint = to_text(address());
     service_.units = units;
+    service_.through = &through;
     service_.settle = std::move(settle);
     service_.max_outstanding = config_.max_outstanding;
     service_.idle_timeout = config_.idle_timeout.count() == 0 ? for_ever : duration(config_.idle_timeout);

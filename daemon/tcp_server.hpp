@@ -15,7 +15,8 @@ namespace plcgw {
 class tcp_server {
 public:
     // settle: called after replies went out, to drain what the requests changed.
-    tcp_server(asio::io_context& loop, tcp_server_config config, const unit_table& units, std::function<void()> settle);
+    tcp_server(asio::io_context& loop, tcp_server_config config, const unit_table& units, through_writes& through,
+               std::function<void()> settle);
 
     boost::system::error_code listen();
     asio::awaitable<void> accept_clients();  // until the io_context ends

@@ -25,6 +25,19 @@ constexpr duration shortest_watch = std::chrono::milliseconds(10);
 constexpr duration complaint_period = std::chrono::seconds(10);
 constexpr unsigned most_complaints = 20;
 
+bool is_write(bytes pdu)
+{
+    switch (modbus::function{pdu[0]}) {
+    case modbus::function::write_single_coil:
+    case modbus::function::write_single_register:
+    case modbus::function::write_multiple_coils:
+    case modbus::function::write_multiple_registers:
+    case modbus::function::mask_write_register:
+    case modbus::function::read_write_multiple_registers: return true;
+    default: return false;
+    }
+}
+
 }  // namespace
 
 bool tcp_service::may_complain()
@@ -111,7 +124,33 @@ void tcp_session::take(const modbus::tcp_frame& question)
     buffer pdu = to.plc != nullptr ? serve_pdu(*to.plc, question.content.pdu, version)
                                    : modbus::encode_exception(question.content.pdu[0],
                                                               modbus::exception_code::gateway_path_unavailable);
-    framing_->append(replies_, {question.id, {question.content.unit, std::move(pdu)}});
+    modbus::tcp_frame reply{question.id, {question.content.unit, std::move(pdu)}};
+    // A write that is taken by the PLC only goes on to the station, where a write-through route leads.
+    if (to.plc != nullptr && is_write(question.content.pdu) && reply.content.pdu[0] == question.content.pdu[0]) {
+        if (auto written = service_.through->begin(*to.plc)) {
+            ++under_way_;
+            asio::co_spawn(socket_.get_executor(),
+                           answer_later(shared_from_this(), std::move(reply), std::move(written)), asio::detached);
+            return;
+        }
+    }
+    framing_->append(replies_, reply);
+}
+
+// The client hears what the station said.
+asio::awaitable<void> tcp_session::answer_later(std::shared_ptr<tcp_session> self, modbus::tcp_frame reply,
+                                                through_writes::handle written)
+{
+    const time_point asked_at = now();
+    const auto failed = co_await through_writes::finish(std::move(written));
+    --self->under_way_;
+    if (failed)
+        reply.content.pdu = modbus::encode_exception(reply.content.pdu[0], *failed);
+    if (!self->abandoned_ && !self->is_late(asked_at))
+        self->framing_->append(self->replies_, reply);
+    self->quiet_since_ = now();
+    self->flush();
+    self->changed_.cancel();
 }
 
 // Executed by every PLC that stands here for a station, answered by nobody.

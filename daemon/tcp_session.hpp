@@ -3,6 +3,7 @@
 
 #include "daemon/read_before.hpp"
 #include "daemon/tcp_framing.hpp"
+#include "daemon/through_writes.hpp"
 #include "daemon/unit_table.hpp"
 
 #include <boost/asio/ip/tcp.hpp>
@@ -20,6 +21,7 @@ namespace plcgw {
 struct tcp_service {
     std::string endpoint;  // "127.0.0.1:1502", for the log
     unit_table units;
+    through_writes* through = nullptr;
     std::function<void()> settle;  // called after replies went out, to drain what the requests changed
     duration idle_timeout{};
     unsigned max_outstanding = 1;  // forwarded requests of one client at a time
@@ -59,6 +61,8 @@ private:
     void take_broadcast(bytes pdu);
     void forward(const modbus::tcp_frame& question, const unit_target& to);
     static asio::awaitable<void> ask_station(std::shared_ptr<tcp_session> self, station_key to);
+    static asio::awaitable<void> answer_later(std::shared_ptr<tcp_session> self, modbus::tcp_frame reply,
+                                              through_writes::handle written);
     asio::awaitable<void> something_changed();
     bool is_full() const;
     bool is_late(time_point asked_at) const;

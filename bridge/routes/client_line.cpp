@@ -53,6 +53,8 @@ std::optional<client_line::question> client_line::next(time_point now)
         chosen = next_forward(now);
     else
         chosen = question_of_turn(*turn, now);
+    if (turn->of != lane::forward)
+        routes_[turn->item].on_its_way = std::exchange(routes_[turn->item].waiting, {});
     if (chosen)
         chosen->timing.delimiter = delimiter_of(chosen->unit, chosen->timing.delimiter);
     return chosen;
@@ -76,36 +78,6 @@ std::optional<client_line::question> client_line::next_forward(time_point now)
         return std::nullopt;
     const modbus::serial_options timing = taken->timing ? *taken->timing : timing_of(station_of(taken->unit));
     return question{taken->ticket, taken->unit, std::move(taken->request), timing, now};
-}
-
-std::uint8_t client_line::delimiter_of(station_number unit, std::uint8_t of_a_stranger) const
-{
-    const auto told = delimiters_.find(unit);
-    if (told == delimiters_.end())
-        return of_a_stranger;
-    return told->second.in_force ? told->second.character : modbus::ascii_delimiter;
-}
-
-void client_line::learn_delimiter(const question& q, const station_answer& answer)
-{
-    const auto* const response = std::get_if<modbus::response>(&answer);
-    const auto* const request = std::get_if<modbus::request>(&q.asked);
-    const auto* const asked = request == nullptr ? nullptr : std::get_if<modbus::diagnostics>(request);
-    if (asked == nullptr || response == nullptr || asked->what != modbus::diagnostic::change_ascii_delimiter ||
-        asked->data.empty())
-        return;
-    if (std::holds_alternative<modbus::diagnostics_answered>(*response))
-        delimiters_[q.unit] = {asked->data[0]};
-    else if (q.unit == station_number(modbus::unit_id::broadcast) &&
-             std::holds_alternative<modbus::no_response>(*response))
-        for (unsigned unit = 0; unit <= 247; ++unit)  // whoever did not hear it is found out by asking
-            delimiters_[station_number(unit)] = {asked->data[0]};
-}
-
-void client_line::doubt_delimiter(station_number unit)
-{
-    if (const auto told = delimiters_.find(unit); told != delimiters_.end())
-        told->second.in_force = !told->second.in_force;
 }
 
 std::size_t client_line::station_of(station_number unit)
@@ -174,7 +146,9 @@ void client_line::answered(const question& q, const station_answer& answer, time
     if (const auto refused = refusal_in(answer)) {
         ++reading(of).content.errors;
         set_quality(of, quality::device_error, refused->reason, refused->code);
-        if (writes(of.content.way))
+        if (of.through)
+            through_ended(of, static_cast<modbus::exception_code>(refused->code));
+        else if (writes(of.content.way))
             was_refused(of, q, now, refused->may_pass);
         return;
     }
@@ -215,18 +189,24 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
     ++reading(of).content.errors;
     set_quality(of, quality::comm_error, reason, code);
     note_health(station, before, reason, code);
+    through_ended(of, modbus::exception_code::gateway_target_failed_to_respond);
 }
 
 void client_line::interrupted(const question& q)
 {
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin))
         forwards_.answer(*forwarded, make_error_code(errc::port_absent), q.asked_at);
-    else
-        schedule_.finished(std::get<schedule::turn>(q.origin), schedule::outcome::not_asked, {}, q.asked_at);
+    else {
+        const auto& turn = std::get<schedule::turn>(q.origin);
+        schedule_.finished(turn, schedule::outcome::not_asked, {}, q.asked_at);
+        through_ended(routes_[turn.item], modbus::exception_code::gateway_path_unavailable);
+    }
 }
 
 void client_line::port_lost(const std::string& why)
 {
+    for (row& each : routes_)
+        through_lost(each);
     for (row& each : routes_)
         lose(each, why, static_cast<std::uint16_t>(no_answer::no_port));
     forwards_.answer_all(errc::port_absent);

@@ -102,6 +102,15 @@ public:
     // Somebody drained this change of a memory. True when a route is due to write it to its station.
     bool memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
 
+    // A client has just written into this PLC: a number for each write-through route that this touched, and the outcome
+    // of each number as soon as it is known. Nothing: done; else memory is again as the station has it.
+    std::vector<std::uint64_t> write_through(const plc::simulated_plc& plc);
+    struct through_outcome {
+        std::uint64_t number{};
+        std::optional<modbus::exception_code> failed;
+    };
+    std::vector<through_outcome> take_through() { return std::exchange(through_outcomes_, {}); }
+
     // Somebody wrote devices that are watched, though nothing may have changed: periodic writes begin. As above.
     bool memory_written();
 
@@ -143,6 +152,11 @@ private:
 
         std::optional<plc::memory::watch> first_write{};  // of a periodic write that did not begin yet
         time_point next_write{};
+
+        // Of a write-through route, whose `agreed` is what the station has. The clients that wait, by number.
+        std::optional<plc::memory::watch> through{};
+        std::vector<std::uint64_t> waiting{};   // for the next question
+        std::vector<std::uint64_t> on_its_way;  // for the answer to the last one
     };
 
     void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
@@ -159,6 +173,8 @@ private:
     modbus::serial_options timing_of(std::size_t station) const;
     void note_health(std::size_t station, health before, const std::string& reason, std::uint16_t code = 0);
     void note_load(time_point now);
+    void through_ended(row& of, std::optional<modbus::exception_code> failed);
+    void through_lost(row& of);
     std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;
     void learn_delimiter(const question& q, const station_answer& answer);
     void doubt_delimiter(station_number unit);
@@ -177,6 +193,8 @@ private:
     bool forwards_came_ = false;  // since they were looked at
     time_point forwards_wake_ = time_point::max();
     std::size_t halves_ = 0;
+    std::uint64_t last_through_ = 0;
+    std::vector<through_outcome> through_outcomes_;
     bool port_open_ = false;
     bool overloaded_ = false;
     time_point load_looked_at_{};

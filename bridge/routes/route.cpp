@@ -144,14 +144,19 @@ std::vector<std::uint16_t> words_in_memory(const route& r)
     return is_bits(r.there) ? packed(bits_in_memory(r)) : registers_in_memory(r);
 }
 
-void show_substitute(route& r)
+void put_words(const route& r, const std::vector<std::uint16_t>& words)
 {
     plc::memory& memory = r.plc->memory();
-    r.words = r.substitute;
     for (std::size_t bit = 0; is_bits(r.there) && bit < r.count; ++bit)
-        memory.put_bit({r.at.area, r.at.bit + bit}, (r.words[bit / 16] >> bit % 16 & 1U) != 0);
+        memory.put_bit({r.at.area, r.at.bit + bit}, (words[bit / 16] >> bit % 16 & 1U) != 0);
     for (std::size_t i = 0; !is_bits(r.there) && i < r.count; ++i)
-        memory.put_word({r.at.area, r.at.bit + 16 * i}, r.words[i]);
+        memory.put_word({r.at.area, r.at.bit + 16 * i}, words[i]);
+}
+
+void show_substitute(route& r)
+{
+    r.words = r.substitute;
+    put_words(r, r.words);
 }
 
 sample sample_of(const route& r)

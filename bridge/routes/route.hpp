@@ -12,6 +12,7 @@ enum class direction : std::uint8_t {
     read,            // station -> PLC, every period
     write,           // PLC -> station, when the PLC's devices change
     read_write,      // both: read every period, and written when somebody else changes the PLC's devices
+    write_through,   // as write, but whoever writes by MODBUS TCP hears what the station said to it
     periodic_write,  // as write, and every period although nothing changed, once somebody wrote the PLC's devices
 };
 
@@ -50,6 +51,9 @@ void store(route& r, const station_question& question, const station_answer& ans
 
 // The devices in memory, packed as the route's words.
 std::vector<std::uint16_t> words_in_memory(const route& r);
+
+// The other way round; no sign of life of who writes there.
+void put_words(const route& r, const std::vector<std::uint16_t>& words);
 
 // The substitute goes into memory and words. It is no sign of life of who writes there.
 void show_substitute(route& r);

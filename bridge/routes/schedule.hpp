@@ -43,6 +43,8 @@ public:
     // A write that is to be asked, or under way.
     bool is_wanted(std::size_t item) const { return items_[item].asked || items_[item].in_flight; }
 
+    void forget(std::size_t item) { items_[item].asked = false; }  // a write that is not wanted any more
+
     struct turn {
         std::size_t item{};    // not of a forwarded request
         bool with_retries{};   // a suspect or silent station gets one attempt

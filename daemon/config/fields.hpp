@@ -21,6 +21,7 @@ inline constexpr choice<local_echo> local_echoes[] = {
 inline constexpr choice<parity> parities[] = {{"none", parity::none}, {"odd", parity::odd}, {"even", parity::even}};
 inline constexpr choice<direction> directions[] = {{"read", direction::read},
                                                    {"write", direction::write},
+                                                   {"write-through", direction::write_through},
                                                    {"read-write", direction::read_write},
                                                    {"periodic-write", direction::periodic_write}};
 inline constexpr choice<modbus::table> tables[] = {{"coil", modbus::table::coils},

@@ -1,0 +1,43 @@
+// Clients that wait until a station has taken what they wrote into a PLC: write-through routes.
+#pragma once
+
+#include "bridge/routes/client_line.hpp"
+#include "daemon/line_driver.hpp"
+#include "daemon/read_before.hpp"
+
+#include <map>
+#include <memory>
+
+namespace plcgw {
+
+class through_writes {
+public:
+    explicit through_writes(asio::any_io_executor executor) : executor_(std::move(executor)) {}
+
+    void add_line(client_line& routes, line_driver& driver) { lines_.push_back({&routes, &driver, {}}); }
+
+    struct waiting {
+        explicit waiting(const asio::any_io_executor& executor) : done(executor) {}
+        asio::steady_timer done;  // never expires, cancelled when all answers are there
+        std::size_t open = 0;
+        std::optional<modbus::exception_code> failed;  // the first that did
+    };
+    using handle = std::shared_ptr<waiting>;
+
+    // After a client's write into this PLC. Null when no station is to take it.
+    handle begin(const plc::simulated_plc& plc);
+    static asio::awaitable<std::optional<modbus::exception_code>> finish(handle begun);
+
+    void deliver();  // what the lines know by now
+
+private:
+    struct line {
+        client_line* routes;
+        line_driver* driver;
+        std::map<std::uint64_t, handle> waiting;
+    };
+    asio::any_io_executor executor_;
+    std::vector<line> lines_;
+};
+
+}  // namespace plcgw
