@@ -160,6 +160,12 @@ private:
     };
 
     void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
+    // The only places that know which item of the schedule a row is.
+    void ask_write(const row& of, time_point not_before = {}) { schedule_.ask(index_of(of), not_before); }
+    void read_soon(const row& of, time_point now) { schedule_.ask(index_of(of), now); }
+    bool is_write_due(const row& of) const { return schedule_.is_wanted(index_of(of)); }
+    std::size_t index_of(const row& of) const { return static_cast<std::size_t>(&of - routes_.data()); }
+
     row& reading(row& of) { return of.half ? routes_[*of.partner] : of; }
     bool is_to_be_written(const row& of) const;
     bool is_outdated(const row& of, const question& q) const;

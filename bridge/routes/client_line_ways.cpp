@@ -48,7 +48,7 @@ bool client_line::is_to_be_written(const row& of) const
 {
     if (!of.partner || of.half)
         return false;
-    const bool may_be_due = schedule_.is_wanted(*of.partner) || of.content.plc->memory().has_changes();
+    const bool may_be_due = is_write_due(routes_[*of.partner]) || of.content.plc->memory().has_changes();
     return may_be_due && words_in_memory(of.content) != of.agreed;
 }
 
@@ -73,13 +73,13 @@ void client_line::was_stored(row& of, const question& q, time_point now)
     if (!of.half)
         return;
     read.written_at = now;
-    schedule_.ask(*of.partner, now);  // what the station made of it is read back
+    read_soon(read, now);  // what the station made of it is read back
 }
 
 void client_line::was_refused(row& of, const question& q, time_point now, bool may_pass)
 {
     if (may_pass)
-        schedule_.ask(std::get<schedule::turn>(q.origin).item, now + refused_write_pause);
+        ask_write(of, now + refused_write_pause);
     else if (of.content.way == direction::periodic_write)
         plan_next_write(of, q, now, false);
     else if (of.half)  // the next read brings back what the station has
@@ -94,7 +94,7 @@ void client_line::plan_next_write(row& of, const question& q, time_point now, bo
     if (of.next_write <= now)
         of.next_write = now + of.period;
     if (!is_due)
-        schedule_.ask(std::get<schedule::turn>(q.origin).item, of.next_write);
+        ask_write(of, of.next_write);
 }
 
 // A value that nobody can renew now. What is only written is as good as it was.
@@ -124,7 +124,7 @@ bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
         if (of.through && words_in_memory(of.content) == of.agreed)
             continue;  // a write that failed was taken back
         of.first_write.reset();
-        schedule_.ask(i);
+        ask_write(of);
         due = true;
     }
     return due;
@@ -140,7 +140,7 @@ bool client_line::memory_written()
         if (!of.first_write || !of.content.plc->memory().take_written(*of.first_write))
             continue;
         of.first_write.reset();
-        schedule_.ask(i);
+        ask_write(of);
         due = true;
     }
     return due;

@@ -123,7 +123,11 @@ TEST_CASE("points: scale and offset, there and back")
     CHECK(*encode(f, real_value(21.5)) == regs{615});
     CHECK(*encode(f, integer_value(-40)) == regs{0});
     CHECK(*encode(f, real_value(21.54)) == regs{615});  // to the nearest number in the registers
-    CHECK(*encode(f, real_value(21.55)) == regs{616});  // halves away from zero
+    CHECK(*encode(f, real_value(21.56)) == regs{616});
+    point_form halves = form(value_type::int16);
+    halves.scale = 0.5;
+    CHECK(*encode(halves, real_value(1.25)) == regs{3});  // away from zero
+    CHECK(*encode(halves, real_value(-1.25)) == regs{0xFFFD});
     CHECK(encode(f, real_value(4000)).error().text == "4000 does not fit the registers, which hold -3316.8 to 3236.7");
 }
 
