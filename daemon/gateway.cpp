@@ -2,6 +2,7 @@
 
 #include "daemon/config/program_file.hpp"
 #include "daemon/control_path.hpp"
+#include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
 #include "daemon/plc_command.hpp"
 #include "daemon/service_notify.hpp"
@@ -26,19 +27,11 @@ std::string_view cure_of(boost::system::error_code ec)
     return "`ss -ltnp` shows who uses the port";
 }
 
-void log_event(const line_event& event)
-{
-    if (event.level == line_event::severity::warning)
-        log::warning("{}", event.text);
-    else
-        log::info("{}", event.text);
-}
-
 }  // namespace
 
 gateway::gateway(asio::io_context& loop, const config::loaded& from)
-    : loop_(loop), config_(from.config), started_(wall_now()), fp7_ports_(loop, [this] { settle_memory(); }),
-      dds_(loop, config_, from.hash), second_(loop), watchdog_(loop)
+    : loop_(loop), config_(from.config), started_(wall_now()), learned_(config_.state.folder),
+      fp7_ports_(loop, [this] { settle_memory(); }), dds_(loop, config_, from.hash), second_(loop), watchdog_(loop)
 {
     make_plcs(from.folder);
     make_lines();
@@ -46,6 +39,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_servers();
     make_blocks();
     make_plc_links();
+    learned_.remember(lines_);
 }
 
 void gateway::make_plcs(const std::string& folder)
@@ -213,8 +207,8 @@ nlohmann::json gateway::command(const nlohmann::json& what)
 
 void gateway::settle(running_line& line)
 {
-    for (const line_event& event : line.routes.take_events())
-        log_event(event);
+    log_events(line.routes.take_events());
+    learned_.keep_if_new(line, lines_);
     line.gate.deliver();
     settle_memory();
     say(line.routes.take_samples(now()));
@@ -224,8 +218,7 @@ void gateway::settle(message_line& line)
 {
     settle_memory();
     const std::vector<sample> samples = line.content.take_samples(now());
-    for (const line_event& event : line.content.take_events())
-        log_event(event);
+    log_events(line.content.take_events());
     for (const serial_message& each : line.content.take_messages())
         dds_.publish(each);
     say(samples);

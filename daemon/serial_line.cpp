@@ -14,6 +14,9 @@ asio::awaitable<error_code> serial_line::exchange(client_line::question question
     if (ec)
         co_return ec;
     const unanswered_requests late = take_leave(transaction);
+    const bool answered = transaction.outcome().has_value() && transaction.response_time() > duration{};
+    if (answered)
+        routes_.responded(question, transaction.response_time());
     if (const auto& outcome = transaction.outcome())
         routes_.answered(question, *outcome, now(), wall_now(), late);
     else

@@ -9,12 +9,20 @@ constexpr int periods_until_stale = 3;
 constexpr duration least_longest_delay = std::chrono::seconds(5);
 constexpr duration refused_write_pause = std::chrono::seconds(1);
 
+std::vector<reading> readings_of(const std::vector<station>& stations)
+{
+    std::vector<reading> readings;
+    for (const station& each : stations)
+        readings.push_back(each.reads);
+    return readings;
+}
+
 }  // namespace
 
 client_line::client_line(std::string name, std::vector<station> stations, duration longest_silence,
                          const modbus::serial_options& timing)
-    : name_(std::move(name)), stations_(std::move(stations)), schedule_(stations_.size()), timing_(timing),
-      longest_silence_(longest_silence)
+    : name_(std::move(name)), stations_(std::move(stations)), polls_(readings_of(stations_)),
+      schedule_(stations_.size()), timing_(timing), longest_silence_(longest_silence)
 {
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         const modbus::serial_options& each = stations_[i].timing;
@@ -25,14 +33,20 @@ client_line::client_line(std::string name, std::vector<station> stations, durati
 void client_line::add_route(route r, std::size_t station, duration period)
 {
     if (r.way == direction::read)
-        schedule_.add_poll(station, period);
+        polls_.add_read(station, {r.there, r.count, period});
     else
-        schedule_.add_write(station);
+        polls_.add_write(station);
     r.words.resize((bits_of(r) + 15) / 16);
     row& added = routes_.emplace_back();
     added.content = std::move(r);
     added.station = station;
     added.period = period;
+}
+
+void client_line::plan()
+{
+    if (!std::exchange(planned_, true))
+        polls_.plan(schedule_);
 }
 
 std::optional<forward_ticket> client_line::forward(station_number unit, modbus::request request,
@@ -114,12 +128,24 @@ const station* client_line::find(station_number unit) const
 
 std::optional<client_line::question> client_line::next_poll(time_point now)
 {
-    const auto turn = schedule_.next(now);
+    auto turn = schedule_.next(now);
+    // A poll that is not needed now lets its turn pass, unless the station's health waits for it.
+    for (; turn && !polls_.is_needed(turn->item); turn = schedule_.next(now)) {
+        if (schedule_.state_of(polls_.at(turn->item).station) != health::healthy)
+            break;
+        schedule_.finished(*turn, schedule::outcome::not_asked, {}, now);
+    }
     if (!turn)
         return std::nullopt;
-    const row& chosen = routes_[turn->item];
+    const line_polls::item& chosen = polls_.at(turn->item);
     const station& of = stations_[chosen.station];
-    question q{*turn, of.unit, question_of(chosen.content), of.timing, now};
+    const bool reads = chosen.period != duration{};
+    question q{*turn,
+               of.unit,
+               reads ? read_question(chosen.first, chosen.count) : question_of(routes_[chosen.routes.front()].content),
+               of.timing,
+               now,
+               chosen};
     if (!turn->with_retries)
         q.timing.retries = 0;
     return q;
@@ -142,25 +168,60 @@ void client_line::answered(const question& q, const station_answer& answer, time
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
-    row& of = routes_[turn.item];
-    const health before = schedule_.state_of(of.station);
+    const std::size_t station = q.item.station;
+    const health before = schedule_.state_of(station);
     schedule_.finished(turn, schedule::outcome::answered, now - q.asked_at, now, late);
     if (before == health::down)
-        note(line_event::severity::info, label(stations_[of.station]) + " answers again");
+        note(line_event::severity::info, label(stations_[station]) + " answers again");
+    for (const std::size_t each : q.item.routes)
+        routes_[each].answered = true;
+    if (const auto why = refusal_in(answer))
+        refused(q, *why, now, wall);
+    else
+        served(q, answer, now, wall);
+}
 
-    of.answered = true;
-    if (const auto refused = refusal_in(answer)) {
-        set_quality(of, quality::device_error, refused->reason);
-        if (of.content.way == direction::write && refused->may_pass)
-            schedule_.ask(turn.item, now + refused_write_pause);
-        return;
+void client_line::refused(const question& q, const station_refusal& why, time_point now, wall_time wall)
+{
+    const bool writes = q.item.period == duration{};
+    line_polls::lesson lesson{true, {}};
+    if (!writes)
+        lesson = polls_.refused(q.item, why, wall, now, schedule_);
+    if (!lesson.text.empty())
+        note(line_event::severity::warning, label(stations_[q.item.station]) + " " + lesson.text);
+    if (lesson.blames_routes)
+        for (const std::size_t each : q.item.routes)
+            set_quality(routes_[each], quality::device_error, why.reason);
+    if (writes && why.may_pass)
+        schedule_.ask(std::get<schedule::turn>(q.origin).item, now + refused_write_pause);
+}
+
+// All that one answer brings is of one moment.
+void client_line::served(const question& q, const station_answer& answer, time_point now, wall_time wall)
+{
+    const bool reads = q.item.period != duration{};
+    for (const std::size_t each : q.item.routes) {
+        row& of = routes_[each];
+        const std::vector<std::uint16_t> words_before = of.content.words;
+        if (reads)
+            store(of.content, q.asked,
+                  part_of(answer, number(of.content.there) - number(q.item.first), of.content.count));
+        else
+            store(of.content, q.asked, answer);
+        of.content.source = wall;
+        of.good_at = now;
+        of.changed = of.changed || of.content.words != words_before;
+        set_quality(of, quality::good, {});
     }
-    const std::vector<std::uint16_t> words_before = of.content.words;
-    store(of.content, q.asked, answer);
-    of.content.source = wall;
-    of.good_at = now;
-    of.changed = of.changed || of.content.words != words_before;
-    set_quality(of, quality::good, {});
+    if (reads)
+        polls_.accepted(q.item, wall, now, schedule_);
+}
+
+void client_line::responded(const question& q, duration after)
+{
+    const station* const of = find(q.unit);
+    if (of != nullptr)
+        polls_.responded(static_cast<std::size_t>(of - stations_.data()), after);
 }
 
 void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
@@ -171,15 +232,16 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
-    row& of = routes_[turn.item];
-    const health before = schedule_.state_of(of.station);
+    const std::size_t station = q.item.station;
+    const health before = schedule_.state_of(station);
     const bool asked = why != errc::line_not_quiet;
     schedule_.finished(turn, asked ? schedule::outcome::silent : schedule::outcome::not_asked, now - q.asked_at, now,
                        late);
     const std::string reason = reason_of(q.asked, why);
-    set_quality(of, quality::comm_error, reason);
-    if (before != health::down && schedule_.state_of(of.station) == health::down)
-        station_down(of.station, reason);
+    for (const std::size_t each : q.item.routes)
+        set_quality(routes_[each], quality::comm_error, reason);
+    if (before != health::down && schedule_.state_of(station) == health::down)
+        station_down(station, reason);
 }
 
 void client_line::interrupted(const question& q)
@@ -207,11 +269,12 @@ void client_line::lose(row& of, const std::string& why)
 
 bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
 {
+    plan();
     bool due = false;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
         if (routes_[i].content.way != direction::write || !touches(routes_[i].content, plc, changed))
             continue;
-        schedule_.ask(i);
+        schedule_.ask(polls_.item_of_write(i));
         due = true;
     }
     return due;

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "bridge/routes/forward_queue.hpp"
+#include "bridge/routes/line_polls.hpp"
 #include "bridge/routes/route.hpp"
-#include "bridge/routes/schedule.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
 #include <map>
@@ -15,6 +15,7 @@ struct station {
     std::string name;
     station_number unit;
     modbus::serial_options timing;
+    reading reads{};
 };
 
 // For the log: a station or a route that changed its state.
@@ -29,8 +30,13 @@ public:
     client_line(std::string name, std::vector<station> stations, duration longest_silence,
                 const modbus::serial_options& timing = {});
 
-    void add_route(route r, std::size_t station, duration period);
-    void start(time_point now) { schedule_.start(now); }
+    void add_route(route r, std::size_t station, duration period);  // before anything else
+    void remember(std::size_t station, station_limits limits) { polls_.remember(station, std::move(limits)); }
+    void start(time_point now)
+    {
+        plan();
+        schedule_.start(now);
+    }
 
     // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent or the station
     // is known to be down. Nothing when too many wait.
@@ -51,6 +57,7 @@ public:
         station_question asked;
         modbus::serial_options timing;
         time_point asked_at{};
+        line_polls::item item{};  // whose turn it is: its routes are served
 
         const modbus::request& request() const { return std::get<modbus::request>(asked); }  // of a MODBUS line
     };
@@ -73,7 +80,12 @@ public:
     void answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
                   unanswered_requests late = {});
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
-    void interrupted(const question& q);  // the port went away: the station is not to blame
+    void interrupted(const question& q);                // the port went away: the station is not to blame
+    void responded(const question& q, duration after);  // from the end of the request to the answer, measured
+
+    // What the stations refused to read in one request, numbered as they were given.
+    const station_limits& limits_of(std::size_t station) const { return polls_.limits_of(station); }
+    bool take_learned() { return polls_.take_learned(); }  // since the last call
 
     void port_opened() { port_open_ = true; }
     void port_lost(const std::string& why);  // values stay, qualities change
@@ -104,6 +116,9 @@ private:
         time_point said_at{};
     };
 
+    void plan();
+    void served(const question& q, const station_answer& answer, time_point now, wall_time wall);
+    void refused(const question& q, const station_refusal& why, time_point now, wall_time wall);
     void set_quality(row& of, quality state, const std::string& reason);
     std::optional<question> next_poll(time_point now);
     std::optional<question> next_forward(time_point now);
@@ -119,8 +134,10 @@ private:
 
     std::string name_;
     std::vector<station> stations_;
-    std::vector<row> routes_;  // numbered like the schedule's items
+    std::vector<row> routes_;
+    line_polls polls_;  // numbered like the schedule's items
     schedule schedule_;
+    bool planned_ = false;
     forward_queue forwards_;
     bool forwarded_last_ = false;
     bool port_open_ = false;

@@ -19,6 +19,8 @@ inline constexpr choice<local_echo> local_echoes[] = {
     {"off", local_echo::off}, {"on", local_echo::on}, {"auto", local_echo::automatic}};
 inline constexpr choice<parity> parities[] = {{"none", parity::none}, {"odd", parity::odd}, {"even", parity::even}};
 inline constexpr choice<direction> directions[] = {{"read", direction::read}, {"write", direction::write}};
+inline constexpr choice<merge_mode> merge_modes[] = {
+    {"auto", merge_mode::automatic}, {"adjacent", merge_mode::adjacent}, {"off", merge_mode::off}};
 inline constexpr choice<modbus::table> tables[] = {{"coil", modbus::table::coils},
                                                    {"discrete", modbus::table::discrete_inputs},
                                                    {"input", modbus::table::input_registers},
@@ -156,6 +158,15 @@ void describe(Visitor& v, station_config& c)
         range{0, 999});
     v.optional("response_timeout_ms", c.response_timeout, "As at the line, for this station", range{1, 60'000});
     v.optional("retries", c.retries, "As at the line, for this station", range{0, 20});
+    v.optional("merge", c.merge,
+               "Which reads share a request. auto: whatever costs least bus time; adjacent: nothing is read that no "
+               "route wants; off: each route has its own",
+               merge_modes);
+    v.optional(
+        "max_registers", c.max_registers,
+        "Registers or words at most in one request that serves several routes; 0 = as many as the protocol allows",
+        range{0, 125});
+    v.optional("max_bits", c.max_bits, "Bits, likewise", range{0, 2000});
 }
 
 template <class Visitor>
@@ -232,6 +243,13 @@ void describe(Visitor& v, control_config& c)
 }
 
 template <class Visitor>
+void describe(Visitor& v, state_config& c)
+{
+    v.optional("folder", c.folder,
+               "Folder of what is kept across restarts; empty: systemd's state directory, or the user's", text{});
+}
+
+template <class Visitor>
 void describe(Visitor& v, gateway_config& c)
 {
     v.optional("$schema", c.schema, "Path of the JSON Schema, for editors", text{});
@@ -245,6 +263,7 @@ void describe(Visitor& v, gateway_config& c)
     v.optional("dds", c.dds, "DDS");
     v.optional("log", c.log, "Logging");
     v.optional("control", c.control, "Commands for the running gateway");
+    v.optional("state", c.state, "What the gateway has learned about its devices");
 }
 
 }  // namespace plcgw::config

@@ -49,7 +49,8 @@ FULL = {
                                         "base": "decimal", "words": "low-byte-first", "before_words": "",
                                         "before_error": "", "before_piece": "", "dt": "DT", "ld": "LD", "wx": "WX",
                                         "wy": "WY", "wr": "WR", "wl": "WL"}}}],
-    "stations": [{"name": "s", "line": "l", "unit": 1, "response_timeout_ms": 100, "retries": 0},
+    "stations": [{"name": "s", "line": "l", "unit": 1, "response_timeout_ms": 100, "retries": 0,
+                  "merge": "adjacent", "max_registers": 60, "max_bits": 500},
                  {"name": "t", "line": "l", "unit": 2}, {"name": "p", "line": "w", "unit": 7}],
     "routes": [{"name": "r", "station": "s", "table": "input", "first": 0, "count": 2, "plc": "a", "device": "D100",
                 "direction": "read", "period_ms": 500},
@@ -63,6 +64,7 @@ FULL = {
             "longest_silence_ms": 500, "blocks": [{"plc": "a", "device": "D0", "count": 4}]},
     "log": {"level": "info"},
     "control": {"socket": "control.sock"},
+    "state": {"folder": "state"},
 }
 FILES = {"setup.txt": "LD M8411\n"}
 
