@@ -14,8 +14,7 @@ asio::awaitable<error_code> serial_line::exchange(client_line::question question
     if (ec)
         co_return ec;
     const unanswered_requests late = take_leave(transaction);
-    const bool answered = transaction.outcome().has_value() && transaction.response_time() > duration{};
-    if (answered)
+    if (transaction.outcome() && !refusal_in(*transaction.outcome()))
         routes_.responded(question, transaction.response_time());
     if (const auto& outcome = transaction.outcome())
         routes_.answered(question, *outcome, now(), wall_now(), late);

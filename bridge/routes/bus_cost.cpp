@@ -88,6 +88,14 @@ duration exchange_time(const bus_timing& bus, const station_question& asked)
     return bus.protocol == bus_protocol::mewtocol7_com ? com7_exchange(bus, block) : com_exchange(bus, block);
 }
 
+duration turnaround_in(const bus_timing& bus, const modbus::request& asked, duration until_answered)
+{
+    const auto sizes = sizes_of(modbus::function_of(asked), items_of(asked), 1);
+    const auto mode = bus.protocol == bus_protocol::modbus_ascii ? plc::framing::ascii : plc::framing::rtu;
+    const duration response = sizes ? character_time(bus.format, adu_size(sizes->response, mode)) : duration{};
+    return std::max(duration{}, until_answered - response);
+}
+
 bool is_one_exchange(const bus_timing& bus, const station_question& asked)
 {
     if (const auto* const request = std::get_if<modbus::request>(&asked))

@@ -221,7 +221,7 @@ void client_line::responded(const question& q, duration after)
 {
     const station* const of = find(q.unit);
     if (of != nullptr)
-        polls_.responded(static_cast<std::size_t>(of - stations_.data()), after);
+        polls_.responded(static_cast<std::size_t>(of - stations_.data()), q.request(), after);
 }
 
 void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)

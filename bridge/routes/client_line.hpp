@@ -80,8 +80,9 @@ public:
     void answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
                   unanswered_requests late = {});
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
-    void interrupted(const question& q);                // the port went away: the station is not to blame
-    void responded(const question& q, duration after);  // from the end of the request to the answer, measured
+    void interrupted(const question& q);  // the port went away: the station is not to blame
+    // Of a MODBUS question: from the end of the request to the end of its answer, measured.
+    void responded(const question& q, duration after);
 
     // What the stations refused to read in one request, numbered as they were given.
     const station_limits& limits_of(std::size_t station) const { return polls_.limits_of(station); }

@@ -5,8 +5,8 @@
 namespace plcgw {
 namespace {
 
-constexpr duration first_round = std::chrono::seconds(1);  // in which every new poll is read for the first time
-constexpr int smoothing = 8;                               // of measured turnarounds
+constexpr duration first_round = std::chrono::milliseconds(250);  // in which every new poll is read for the first time
+constexpr int smoothing = 8;                                      // of measured turnarounds
 
 bool is_same(const line_polls::item& a, const line_polls::item& b)
 {
@@ -121,10 +121,11 @@ void line_polls::accepted(const item& poll, wall_time wall, time_point now, sche
     replan(poll.station, now, polls);
 }
 
-void line_polls::responded(std::size_t station, duration after)
+void line_polls::responded(std::size_t station, const modbus::request& asked, duration after)
 {
+    const duration measured = turnaround_in(stations_[station].how.bus, asked, after);
     std::optional<duration>& kept = stations_[station].limits.turnaround;
-    kept = kept ? *kept + (after - *kept) / smoothing : after;
+    kept = kept ? *kept + (measured - *kept) / smoothing : measured;
 }
 
 // Polls that stay as they are keep their items and with them their phases. The others take the items that are left, of
@@ -160,7 +161,7 @@ void line_polls::replan(std::size_t station, time_point now, schedule& polls)
             index = polls.add_poll(station, period);
         }
         const auto count = static_cast<std::int64_t>(wanted.size());
-        polls.ask(index, now + std::min(period, first_round) * static_cast<std::int64_t>(n) / count);
+        polls.ask(index, now + std::min(period / 4, first_round) * static_cast<std::int64_t>(n) / count);
     }
 }
 

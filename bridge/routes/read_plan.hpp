@@ -17,7 +17,7 @@ struct reading {
     merge_mode merge = merge_mode::automatic;
     unsigned max_registers = 0;  // that the device takes in one request; 0: what the protocol allows
     unsigned max_bits = 0;
-    bus_timing bus;
+    bus_timing bus{};
 };
 
 struct wanted_read {  // of one route

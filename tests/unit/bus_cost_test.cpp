@@ -51,19 +51,27 @@ TEST_CASE("bus cost: request, turnaround, response and the silence behind it")
         {"MEWTOCOL",
          {.protocol = bus_protocol::mewtocol_com, .format = at_9600, .turnaround = none},
          words(1),
-         19792us + 13542us + 1042us},
+         20834us + 13542us + 1042us},
         {"two frames of MEWTOCOL",
          {.protocol = bus_protocol::mewtocol_com,
           .format = at_9600,
           .turnaround = none,
           .headers = mewtocol::headers::normal},
          words(28),
-         2 * (19792us + 1042us) + 117709us + 17709us},
+         2 * (20834us + 1042us) + 117709us + 17709us},
     };
     for (const auto& row : rows) {
         CAPTURE(row.name);
         CHECK(exchange_time(row.bus, row.asked) == row.expected);
     }
+}
+
+TEST_CASE("bus cost: the turnaround is what is left of the time until the answer was there")
+{
+    const bus_timing bus{.format = at_9600};
+    const auto asked = std::get<modbus::request>(registers(1));
+    CHECK(turnaround_in(bus, asked, 10ms) == 10ms - 7292us);
+    CHECK(turnaround_in(bus, asked, 7ms) == none);
 }
 
 TEST_CASE("bus cost: what one exchange carries")
