@@ -2,6 +2,7 @@
 
 #include "daemon/config/program_file.hpp"
 #include "daemon/control_path.hpp"
+#include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
 #include "daemon/plc_command.hpp"
 #include "daemon/plc_link_command.hpp"
@@ -30,9 +31,10 @@ std::string_view cure_of(boost::system::error_code ec)
 }  // namespace
 
 gateway::gateway(asio::io_context& loop, const config::loaded& from)
-    : loop_(loop), config_(from.config), started_(wall_now()), fp7_ports_(loop, [this] { settle_memory(); }),
-      upstream_(loop, [this] { settle_memory(); }), through_(loop.get_executor()), dds_(loop, config_, from.hash),
-      blocks_(lines_, message_lines_, dds_), points_(loop, dds_), second_(loop), watchdog_(loop)
+    : loop_(loop), config_(from.config), started_(wall_now()), learned_(config_.state.folder),
+      fp7_ports_(loop, [this] { settle_memory(); }), upstream_(loop, [this] { settle_memory(); }),
+      through_(loop.get_executor()), dds_(loop, config_, from.hash), blocks_(lines_, message_lines_, dds_),
+      points_(loop, dds_), second_(loop), watchdog_(loop)
 {
     make_plcs(from.folder);
     make_lines();
@@ -42,6 +44,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_plc_links();
     make_copies();
     make_points();
+    learned_.remember(lines_);
 }
 
 void gateway::make_plcs(const std::string& folder)

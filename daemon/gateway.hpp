@@ -5,6 +5,7 @@
 #include "daemon/config/read.hpp"
 #include "daemon/control_server.hpp"
 #include "daemon/dds_link.hpp"
+#include "daemon/learned_keeper.hpp"
 #include "daemon/message_line.hpp"
 #include "daemon/plc_links.hpp"
 #include "daemon/plc_program.hpp"
@@ -25,7 +26,8 @@ public:
     gateway(const gateway&) = delete;
     gateway& operator=(const gateway&) = delete;
 
-    bool start();  // false when a server could not listen: said in the log
+    bool start();                                   // false when a server could not listen: said in the log
+    void keep_learned() { learned_.keep(lines_); }  // at the end: with the times that were measured
 
 private:
     void make_plcs(const std::string& folder);
@@ -62,6 +64,7 @@ private:
     wall_time started_;
     std::vector<std::unique_ptr<plc::simulated_plc>> plcs_;
     std::vector<std::unique_ptr<running_line>> lines_;
+    learned_keeper learned_;
     fp7_ports fp7_ports_;
     std::vector<std::unique_ptr<line_driver>> server_lines_;
     std::vector<std::unique_ptr<message_line>> message_lines_;

@@ -1,6 +1,6 @@
 // What follows an exchange on a line or a request of a client: changes are drained, and said.
 #include "daemon/gateway.hpp"
-#include "daemon/log.hpp"
+#include "daemon/line_events.hpp"
 
 #include <algorithm>
 
@@ -9,20 +9,12 @@ namespace {
 
 constexpr unsigned most_copy_rounds = 64;  // of copies of copies; what is left then is copied the next time
 
-void log_event(const line_event& event)
-{
-    if (event.level == line_event::severity::warning)
-        log::warning("{}", event.text);
-    else
-        log::info("{}", event.text);
-}
-
 }  // namespace
 
 void gateway::settle(running_line& line)
 {
-    for (const line_event& event : line.routes.take_events())
-        log_event(event);
+    log_events(line.routes.take_events());
+    learned_.keep_if_new(line, lines_);
     line.gate.deliver();
     through_.deliver();
     line.statuses.show(wall_now());
@@ -34,8 +26,7 @@ void gateway::settle(message_line& line)
 {
     settle_memory();
     const std::vector<sample> samples = line.content.take_samples(now());
-    for (const line_event& event : line.content.take_events())
-        log_event(event);
+    log_events(line.content.take_events());
     for (const serial_message& each : line.content.take_messages())
         dds_.publish(each);
     say(samples);

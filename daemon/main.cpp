@@ -3,6 +3,7 @@
 #include "daemon/config/schema.hpp"
 #include "daemon/link_time_command.hpp"
 #include "daemon/map_command.hpp"
+#include "daemon/plan_command.hpp"
 #include "daemon/plc_command.hpp"
 #include "daemon/plc_link_command.hpp"
 #include "daemon/run.hpp"
@@ -111,6 +112,16 @@ int run_command(int argc, char** argv)
     std::string checked_file;
     CLI::App* const check = app.add_subcommand("check", "Report every mistake in a configuration file");
     check->add_option("file", checked_file, "Configuration file")->required();
+    std::string overload = "error";
+    check->add_option("--overload", overload, "What a line is that needs more than its time")
+        ->check(CLI::IsMember({"error", "warn"}))
+        ->capture_default_str();
+
+    std::string planned_file;
+    std::string planned_line;
+    CLI::App* const plan = app.add_subcommand("plan", "Show by which requests the stations are read, and why");
+    plan->add_option("file", planned_file, "Configuration file")->required();
+    plan->add_option("line", planned_line, "Name of a line; none: all");
 
     watch_arguments watched;
     CLI::App* const watch = app.add_subcommand("watch", "Show live registers, received by DDS");
@@ -146,7 +157,9 @@ int run_command(int argc, char** argv)
     if (*run)
         return plcgw::run(config_file);
     if (*check)
-        return plcgw::check(checked_file);
+        return plcgw::check(checked_file, overload == "warn");
+    if (*plan)
+        return plcgw::show_plan(planned_file, planned_line);
     if (*watch)
         return watched.run();
     if (*plc)

@@ -2,6 +2,7 @@
 
 #include "daemon/gateway.hpp"
 #include "daemon/log.hpp"
+#include "daemon/plan_command.hpp"
 #include "daemon/service_notify.hpp"
 #include "daemon/version.hpp"
 
@@ -46,9 +47,25 @@ void wait_for_signal(asio::signal_set& signals, asio::io_context& loop)
     });
 }
 
+// What the lines need of their time; how many need more than all of it goes to stderr.
+std::size_t say_loads(const std::filesystem::path& config_file, const gateway_config& config, bool as_warning)
+{
+    std::size_t overloads = 0;
+    for (const line_load& each : loads_of(config, learned_for(config))) {
+        fmt::print("{}: {:.1f} ms/s, {:.1f} %\n", each.line, 1000 * each.needed, 100 * each.needed);
+        for (const std::string& row : each.rows)
+            fmt::print("{}\n", row);
+        if (each.overload.empty())
+            continue;
+        fmt::print(stderr, "{}: {}{}\n", config_file.string(), as_warning ? "warning: " : "", each.overload);
+        ++overloads;
+    }
+    return overloads;
+}
+
 }  // namespace
 
-int check(const std::filesystem::path& config_file)
+int check(const std::filesystem::path& config_file, bool overload_is_a_warning)
 {
     const config::loaded loaded = config::load_file(config_file);
     print(config_file, loaded.found);
@@ -60,7 +77,7 @@ int check(const std::filesystem::path& config_file)
     fmt::print("{} is correct: {}, {}, {}, {}, {}\n", config_file.string(), counted(c.plcs.size(), "PLC"),
                counted(c.lines.size(), "line"), counted(c.stations.size(), "station"),
                counted(c.routes.size(), "route"), counted(c.modbus_tcp.size(), "MODBUS TCP server"));
-    return 0;
+    return say_loads(config_file, c, overload_is_a_warning) == 0 || overload_is_a_warning ? 0 : 1;
 }
 
 int run(const std::filesystem::path& config_file)
@@ -75,11 +92,16 @@ int run(const std::filesystem::path& config_file)
     asio::io_context loop(1);
     asio::signal_set signals(loop, SIGTERM, SIGINT, SIGHUP);
     wait_for_signal(signals, loop);
+    // It is no reason to stand still: the periods grow, and the routes say so.
+    for (const line_load& each : loads_of(loaded.config, learned_for(loaded.config)))
+        if (!each.overload.empty())
+            log::warning("{}", each.overload);
     gateway running(loop, loaded);
     log::info("plc-gateway {} started with {}", version, config_file.string());
     if (!running.start())
         return cannot_listen;
     loop.run();
+    running.keep_learned();
     return 0;
 }
 

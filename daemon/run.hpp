@@ -9,7 +9,8 @@ namespace plcgw {
 // does not heal by itself, the other may, so systemd starts it again.
 int run(const std::filesystem::path& config_file);
 
-// Exit status: 0 when the configuration is right (warnings are printed), 1 when it has mistakes.
-int check(const std::filesystem::path& config_file);
+// Exit status: 0 when the configuration is right (warnings are printed), 1 when it has mistakes, or a line that needs
+// more than its time, unless that shall be a warning.
+int check(const std::filesystem::path& config_file, bool overload_is_a_warning = false);
 
 }  // namespace plcgw

@@ -3,6 +3,7 @@
 #include "daemon/line_connection.hpp"
 #include "daemon/mewtocol_line.hpp"
 #include "daemon/serial_line.hpp"
+#include "daemon/station_reading.hpp"
 #include "daemon/tcp_line.hpp"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ std::vector<station> stations_of(const gateway_config& all, const line_config& l
     std::vector<station> stations;
     for (const station_config& each : all.stations)
         if (each.line == line.name)
-            stations.push_back({each.name, station_number(each.unit), timing_of(line, each),
+            stations.push_back({each.name, station_number(each.unit), timing_of(line, each), reading_of(line, each),
                                 line.learn_timeout ? std::optional<duration>(line.least_timeout) : std::nullopt});
     return stations;
 }
@@ -52,10 +53,7 @@ route make_route(const route_config& from, const find_plc& plc)
     r.name = from.name;
     r.plc = &plc(from.plc);
     r.at = *r.plc->memory().find(*plc::parse_device(from.device, r.plc->model().names));
-    if (from.source.empty())
-        r.there = modbus_place{*from.table, modbus::address{static_cast<std::uint16_t>(*from.first)}};
-    else
-        r.there = *mewtocol::parse_device(from.source);
+    r.there = place_of(from);
     r.count = static_cast<std::uint16_t>(from.count);
     r.way = from.way;
     if (from.on_loss != loss_policy::keep)
@@ -117,6 +115,7 @@ running_line::running_line(boost::asio::io_context& loop, const gateway_config& 
     for (const station_config& each : all.stations) {
         if (each.line != line.name)
             continue;
+        units_.push_back(each.unit);
         for (const route_config& from : all.routes) {
             if (from.station != each.name)
                 continue;
@@ -129,6 +128,19 @@ running_line::running_line(boost::asio::io_context& loop, const gateway_config& 
             statuses.add_station(station, place_of(each.status, each.status.plc, plc));
         ++station;
     }
+}
+
+void running_line::remember(const learned_by_station& all)
+{
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        if (const auto found = all.find({config.name, units_[i]}); found != all.end())
+            routes.remember(i, found->second);
+}
+
+void running_line::tell(learned_by_station& all) const
+{
+    for (std::size_t i = 0; i < units_.size(); ++i)
+        all[{config.name, units_[i]}] = routes.limits_of(i);
 }
 
 }  // namespace plcgw

@@ -5,6 +5,7 @@
 #include "bridge/routes/route_status.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/forward_gate.hpp"
+#include "daemon/learned_store.hpp"
 #include "daemon/line_driver.hpp"
 
 #include <boost/asio/io_context.hpp>
@@ -23,11 +24,18 @@ public:
     running_line(boost::asio::io_context& loop, const gateway_config& all, const line_config& line, const find_plc& plc,
                  std::function<void()> settle);
 
+    // What its stations have taught: from the time before, and now.
+    void remember(const learned_by_station& all);
+    void tell(learned_by_station& all) const;
+
     const line_config config;
     client_line routes;
     status_board statuses{routes};  // of these, as words of the PLCs
     const std::unique_ptr<line_driver> driver;
     forward_gate gate;
+
+private:
+    std::vector<unsigned> units_;  // of its stations
 };
 
 route make_route(const route_config& from, const find_plc& plc);  // of a station

@@ -14,6 +14,8 @@ asio::awaitable<error_code> serial_line::exchange(client_line::question question
     if (ec)
         co_return ec;
     const unanswered_requests late = take_leave(transaction);
+    if (transaction.outcome() && !refusal_in(*transaction.outcome()))
+        routes_.responded(question, transaction.response_time());
     if (const auto& outcome = transaction.outcome())
         routes_.answered(question, *outcome, now(), wall_now(), late, transaction.response_time());
     else

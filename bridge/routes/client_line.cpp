@@ -7,20 +7,33 @@
 namespace plcgw {
 namespace {
 
-constexpr int periods_until_stale = 3;
 constexpr duration least_longest_delay = std::chrono::seconds(5);
+
+std::vector<reading> readings_of(const std::vector<station>& stations)
+{
+    std::vector<reading> readings;
+    for (const station& each : stations)
+        readings.push_back(each.reads);
+    return readings;
+}
 
 }  // namespace
 
 client_line::client_line(std::string name, std::vector<station> stations, const line_options& options)
     : name_(std::move(name)), options_(options), stations_(std::move(stations)), times_(stations_.size()),
-      schedule_(stations_.size()), forwards_(options.cache_age)
+      polls_(readings_of(stations_)), schedule_(stations_.size()), forwards_(options.cache_age)
 {
     schedule_.set_parallel(options.parallel);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         const modbus::serial_options& each = stations_[i].timing;
         schedule_.set_longest_delay(i, std::max(least_longest_delay, (each.retries + 2) * each.response_timeout));
     }
+}
+
+void client_line::plan()
+{
+    if (!std::exchange(planned_, true))
+        polls_.plan(schedule_);
 }
 
 std::optional<forward_ticket> client_line::forward(station_number unit, modbus::request request,
@@ -45,7 +58,11 @@ std::optional<client_line::question> client_line::next(time_point now)
     const auto verdict = [&](const forward_request& each) { return verdict_of(each, now); };
     forwards_wake_ = forwards_.empty() ? time_point::max() : forwards_.look(now, verdict);
     forwards_came_ = false;
-    const auto turn = schedule_.next(now, forwards_wake_ <= now);
+    auto turn = schedule_.next(now, forwards_wake_ <= now);
+    while (turn && is_idle(*turn)) {
+        schedule_.finished(*turn, schedule::outcome::not_asked, {}, now);
+        turn = schedule_.next(now, forwards_wake_ <= now);
+    }
     if (!turn)
         return std::nullopt;
     std::optional<question> chosen;
@@ -53,11 +70,20 @@ std::optional<client_line::question> client_line::next(time_point now)
         chosen = next_forward(now);
     else
         chosen = question_of_turn(*turn, now);
-    if (turn->of != lane::forward)
-        routes_[turn->item].on_its_way = std::exchange(routes_[turn->item].waiting, {});
+    if (turn->of != lane::forward && polls_.at(turn->item).period == duration{}) {
+        row& of = routes_[polls_.at(turn->item).routes.front()];
+        of.on_its_way = std::exchange(of.waiting, {});
+    }
     if (chosen)
         chosen->timing.delimiter = delimiter_of(chosen->unit, chosen->timing.delimiter);
     return chosen;
+}
+
+// A poll that is not needed now lets its turn pass, unless the station's health waits for it.
+bool client_line::is_idle(const schedule::turn& turn) const
+{
+    return turn.of != lane::forward && !polls_.is_needed(turn.item) &&
+           schedule_.state_of(polls_.at(turn.item).station) == health::healthy;
 }
 
 forward_queue::verdict client_line::verdict_of(const forward_request& r, time_point now)
@@ -103,8 +129,15 @@ modbus::serial_options client_line::timing_of(std::size_t station) const
 
 client_line::question client_line::question_of_turn(const schedule::turn& turn, time_point now) const
 {
-    const row& chosen = routes_[turn.item];
-    question q{turn, stations_[chosen.station].unit, question_of(chosen.content), timing_of(chosen.station), now};
+    const line_polls::item& chosen = polls_.at(turn.item);
+    const bool is_read = chosen.period != duration{};
+    question q{turn,
+               stations_[chosen.station].unit,
+               is_read ? read_question(chosen.first, chosen.count)
+                       : question_of(routes_[chosen.routes.front()].content),
+               timing_of(chosen.station),
+               now,
+               chosen};
     if (!turn.with_retries)
         q.timing.retries = 0;
     return q;
@@ -133,35 +166,71 @@ void client_line::answered(const question& q, const station_answer& answer, time
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
-    row& of = routes_[turn.item];
     schedule_.finished(turn, schedule::outcome::answered, now - q.asked_at, now, late);
     note_health(station, before, {});
     note_load(now);
-    if (writes(of.content.way))
+    if (q.item.period == duration{})
         forwards_.forget(q.unit);
     else if (const auto* const response = std::get_if<modbus::response>(&answer))
         forwards_.heard(q.unit, q.request(), *response, now);
+    for (const std::size_t each : q.item.routes)
+        routes_[each].answered = true;
+    if (const auto why = refusal_in(answer))
+        refused(q, *why, now, wall);
+    else
+        served(q, answer, now, wall);
+}
 
-    of.answered = true;
-    if (const auto refused = refusal_in(answer)) {
-        ++reading(of).content.errors;
-        set_quality(of, quality::device_error, refused->reason, refused->code);
-        if (of.through)
-            through_ended(of, static_cast<modbus::exception_code>(refused->code));
-        else if (writes(of.content.way))
-            was_refused(of, q, now, refused->may_pass);
+void client_line::refused(const question& q, const station_refusal& why, time_point now, wall_time wall)
+{
+    const bool is_write = q.item.period == duration{};
+    line_polls::lesson lesson{true, {}};
+    if (!is_write)
+        lesson = polls_.refused(q.item, why, wall, now, schedule_);
+    if (!lesson.text.empty())
+        note(line_event::severity::warning, label(stations_[q.item.station]) + " " + lesson.text);
+    for (const std::size_t each : q.item.routes) {
+        if (!lesson.blames_routes)
+            break;
+        ++reading_row(routes_[each]).content.errors;
+        set_quality(routes_[each], quality::device_error, why.reason, why.code);
+    }
+    if (!is_write)
         return;
+    row& of = routes_[q.item.routes.front()];
+    if (of.through)
+        through_ended(of, static_cast<modbus::exception_code>(why.code));
+    else
+        was_refused(of, q, now, why.may_pass);
+}
+
+// All that one answer brings is of one moment.
+void client_line::served(const question& q, const station_answer& answer, time_point now, wall_time wall)
+{
+    const bool is_read = q.item.period != duration{};
+    for (const std::size_t each : q.item.routes) {
+        row& of = routes_[each];
+        if (!is_outdated(of, q)) {
+            const std::vector<std::uint16_t> words_before = of.content.words;
+            const std::size_t offset = is_read ? number(of.content.there) - number(q.item.first) : 0;
+            store(of.content, q.asked, is_read ? part_of(answer, offset, of.content.count) : answer);
+            was_stored(of, q, now);
+            of.changed = of.changed || of.content.words != words_before;
+        }
+        of.content.source = wall;
+        of.good_at = now;
+        ++of.content.answers;
+        set_quality(of, quality::good, {});
     }
-    if (!is_outdated(of, q)) {
-        const std::vector<std::uint16_t> words_before = of.content.words;
-        store(of.content, q.asked, answer);
-        was_stored(of, q, now);
-        of.changed = of.changed || of.content.words != words_before;
-    }
-    of.content.source = wall;
-    of.good_at = now;
-    ++of.content.answers;
-    set_quality(of, quality::good, {});
+    if (is_read)
+        polls_.accepted(q.item, wall, now, schedule_);
+}
+
+void client_line::responded(const question& q, duration after)
+{
+    const std::size_t station = station_of(q.unit);
+    if (!stations_[station].name.empty())
+        polls_.responded(station, q.request(), after);
 }
 
 void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
@@ -181,15 +250,18 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
         return;
     }
     const auto& turn = std::get<schedule::turn>(q.origin);
-    row& of = routes_[turn.item];
     const auto code = static_cast<std::uint16_t>(code_of(why));
     schedule_.finished(turn, how, now - q.asked_at, now, late);
-    if (writes(of.content.way))
+    const bool is_write = q.item.period == duration{};
+    if (is_write)
         forwards_.forget(q.unit);
-    ++reading(of).content.errors;
-    set_quality(of, quality::comm_error, reason, code);
+    for (const std::size_t each : q.item.routes) {
+        ++reading_row(routes_[each]).content.errors;
+        set_quality(routes_[each], quality::comm_error, reason, code);
+    }
     note_health(station, before, reason, code);
-    through_ended(of, modbus::exception_code::gateway_target_failed_to_respond);
+    if (is_write)
+        through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_target_failed_to_respond);
 }
 
 void client_line::interrupted(const question& q)
@@ -199,7 +271,8 @@ void client_line::interrupted(const question& q)
     else {
         const auto& turn = std::get<schedule::turn>(q.origin);
         schedule_.finished(turn, schedule::outcome::not_asked, {}, q.asked_at);
-        through_ended(routes_[turn.item], modbus::exception_code::gateway_path_unavailable);
+        if (q.item.period == duration{})
+            through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_path_unavailable);
     }
 }
 
@@ -211,64 +284,6 @@ void client_line::port_lost(const std::string& why)
         lose(each, why, static_cast<std::uint16_t>(no_answer::no_port));
     forwards_.answer_all(errc::port_absent);
     port_open_ = false;
-}
-
-std::vector<sample> client_line::take_samples(time_point now)
-{
-    std::vector<sample> samples;
-    for (row& each : routes_) {
-        age(each, now);
-        const bool confirmed = each.answered && now - each.said_at >= options_.longest_silence;
-        if (each.half || (!each.changed && !confirmed))
-            continue;
-        each.changed = each.answered = false;
-        each.said_at = now;
-        samples.push_back(sample_of(each.content));
-    }
-    return samples;
-}
-
-// A value that is not renewed although its station answers, because the line is overloaded.
-void client_line::age(row& of, time_point now)
-{
-    const bool polled = of.content.way == direction::read;
-    if (polled && of.content.state == quality::good && now - of.good_at > periods_until_stale * of.period)
-        set_quality(of, quality::stale, "not read for more than " + std::to_string(periods_until_stale) + " periods",
-                    static_cast<std::uint16_t>(no_answer::not_renewed));
-}
-
-void client_line::say_everything()
-{
-    for (row& each : routes_)
-        each.changed = true;
-}
-
-bool client_line::is_up(std::size_t number) const
-{
-    const route& of = routes_[number].content;
-    return of.state == quality::good ||
-           (writes(of.way) && of.state == quality::never_read);  // had nothing to write yet
-}
-
-std::size_t client_line::routes_up() const
-{
-    std::size_t up = 0;
-    for (std::size_t i = 0; i < routes_.size(); ++i)
-        if (!is_half(i) && is_up(i))
-            ++up;
-    return up;
-}
-
-void client_line::worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const
-{
-    const plc::change span{at.area, at.bit, bits};
-    for (const row& each : routes_) {
-        if (each.content.way != direction::read || !touches(each.content, plc, span))
-            continue;
-        if (each.content.state != quality::good && of.state == quality::good)
-            of.state = each.content.state;
-        of.source = std::min(of.source, each.content.source);
-    }
 }
 
 void client_line::set_quality(row& of, quality state, const std::string& reason, std::uint16_t code)
@@ -309,26 +324,6 @@ void client_line::note_health(std::size_t index, health before, const std::strin
          label(of) + " does not answer (" + reason + "): " +
              (has_routes ? "its values are " + values + ", it is probed from now on"
                          : "requests to it fail at once, until one that is let through now and then is answered"));
-}
-
-// Told once, and again when it has fitted for a while.
-void client_line::note_load(time_point now)
-{
-    constexpr duration period = std::chrono::seconds(10);
-    constexpr double much = 1.05;
-    if (now - load_looked_at_ < period)
-        return;
-    load_looked_at_ = now;
-    const bool is_over = overloaded_ ? schedule_.stretch() > 1 : schedule_.stretch() > much;
-    if (is_over == std::exchange(overloaded_, is_over))
-        return;
-    const auto percent = [](double of) { return std::to_string(static_cast<int>(of * 100 + 0.5)); };
-    if (is_over)
-        note(line_event::severity::warning, "line " + name_ + " is overloaded: its reads need " +
-                                                percent(schedule_.wanted()) + " % of it, so that all periods are " +
-                                                percent(schedule_.stretch()) + " % of what was asked for");
-    else
-        note(line_event::severity::info, "line " + name_ + " keeps its periods again");
 }
 
 std::string client_line::label(const station& of) const

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "bridge/routes/forward_queue.hpp"
+#include "bridge/routes/line_polls.hpp"
 #include "bridge/routes/response_times.hpp"
 #include "bridge/routes/route.hpp"
-#include "bridge/routes/schedule.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
 #include <algorithm>
@@ -17,6 +17,7 @@ struct station {
     std::string name;
     station_number unit;
     modbus::serial_options timing;
+    struct reading reads {};
     std::optional<duration> shortest_timeout{};  // the response timeout is learned: at least this, at most timing's
 };
 
@@ -38,9 +39,15 @@ class client_line {
 public:
     client_line(std::string name, std::vector<station> stations, const line_options& options);
 
-    // The row's number. A route that reads and writes has the next one, too, for its writing half.
+    // Before anything else. The row's number. A route that reads and writes has the next one, too, for its writing
+    // half.
     std::size_t add_route(route r, std::size_t station, duration period);
-    void start(time_point now) { schedule_.start(now); }
+    void remember(std::size_t station, station_limits limits) { polls_.remember(station, std::move(limits)); }
+    void start(time_point now)
+    {
+        plan();
+        schedule_.start(now);
+    }
 
     // A request beside the routes; its answer comes from take_forwarded(), at once if the port is absent. Nothing when
     // too many wait, of this asker or of all.
@@ -68,6 +75,7 @@ public:
         station_question asked;
         modbus::serial_options timing;
         time_point asked_at{};
+        line_polls::item item{};  // whose turn it is: its routes are served
 
         const modbus::request& request() const { return std::get<modbus::request>(asked); }  // of a MODBUS line
     };
@@ -95,6 +103,12 @@ public:
                   unanswered_requests late = {}, std::optional<duration> response_time = {});
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
     void interrupted(const question& q);  // the port went away: the station is not to blame
+    // Of a MODBUS question: from the end of the request to the end of its answer, measured.
+    void responded(const question& q, duration after);
+
+    // What the stations refused to read in one request, numbered as they were given.
+    const station_limits& limits_of(std::size_t station) const { return polls_.limits_of(station); }
+    bool take_learned() { return polls_.take_learned(); }  // since the last call
 
     void port_opened() { port_open_ = true; }
     void port_lost(const std::string& why);  // values stay, qualities change
@@ -161,18 +175,23 @@ private:
 
     void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
     // The only places that know which item of the schedule a row is.
-    void ask_write(const row& of, time_point not_before = {}) { schedule_.ask(index_of(of), not_before); }
-    void read_soon(const row& of, time_point now) { schedule_.ask(index_of(of), now); }
-    bool is_write_due(const row& of) const { return schedule_.is_wanted(index_of(of)); }
+    std::size_t write_item(const row& of) const { return polls_.item_of_write(index_of(of)); }
+    void ask_write(const row& of, time_point not_before = {}) { schedule_.ask(write_item(of), not_before); }
+    void read_soon(const row& of, time_point now);
+    bool is_write_due(const row& of) const { return schedule_.is_wanted(write_item(of)); }
     std::size_t index_of(const row& of) const { return static_cast<std::size_t>(&of - routes_.data()); }
 
-    row& reading(row& of) { return of.half ? routes_[*of.partner] : of; }
+    row& reading_row(row& of) { return of.half ? routes_[*of.partner] : of; }
     bool is_to_be_written(const row& of) const;
     bool is_outdated(const row& of, const question& q) const;
     void was_stored(row& of, const question& q, time_point now);
     void was_refused(row& of, const question& q, time_point now, bool may_pass);
     void plan_next_write(row& of, const question& q, time_point now, bool is_due);
     question question_of_turn(const schedule::turn& turn, time_point now) const;
+    void plan();
+    void served(const question& q, const station_answer& answer, time_point now, wall_time wall);
+    void refused(const question& q, const station_refusal& why, time_point now, wall_time wall);
+    bool is_idle(const schedule::turn& turn) const;
     std::optional<question> next_forward(time_point now);
     forward_queue::verdict verdict_of(const forward_request& r, time_point now);
     std::size_t station_of(station_number unit);  // one that has no route is made known
@@ -193,8 +212,10 @@ private:
     line_options options_;
     std::vector<station> stations_;  // numbered like the schedule's; behind those of the routes any that was asked
     std::vector<response_times> times_;
-    std::vector<row> routes_;  // numbered like the schedule's items
+    std::vector<row> routes_;
+    line_polls polls_;  // numbered like the schedule's items
     schedule schedule_;
+    bool planned_ = false;
     forward_queue forwards_;
     bool forwards_came_ = false;  // since they were looked at
     time_point forwards_wake_ = time_point::max();

@@ -15,9 +15,9 @@ std::size_t client_line::add_route(route r, std::size_t station, duration period
     if (both)
         r.way = direction::read;
     if (reads(r.way))
-        schedule_.add_poll(station, period);
+        polls_.add_read(station, {r.there, r.count, period});
     else
-        schedule_.add_write(station);
+        polls_.add_write(station);
     r.words.resize((bits_of(r) + 15) / 16);
     row& added = routes_.emplace_back();
     added.station = station;
@@ -52,6 +52,8 @@ bool client_line::is_to_be_written(const row& of) const
     return may_be_due && words_in_memory(of.content) != of.agreed;
 }
 
+void client_line::read_soon(const row& of, time_point now) { schedule_.ask(polls_.item_of_read(index_of(of)), now); }
+
 // A read that must not undo what somebody wrote meanwhile.
 bool client_line::is_outdated(const row& of, const question& q) const
 {
@@ -68,7 +70,7 @@ void client_line::was_stored(row& of, const question& q, time_point now)
     }
     if (!of.partner)
         return;
-    row& read = reading(of);
+    row& read = reading_row(of);
     read.agreed = of.half ? of.content.words : words_in_memory(of.content);
     if (!of.half)
         return;
@@ -83,7 +85,7 @@ void client_line::was_refused(row& of, const question& q, time_point now, bool m
     else if (of.content.way == direction::periodic_write)
         plan_next_write(of, q, now, false);
     else if (of.half)  // the next read brings back what the station has
-        reading(of).agreed = words_in_memory(of.content);
+        reading_row(of).agreed = words_in_memory(of.content);
 }
 
 // is_due: the devices changed since the question was asked, and that is to be written at once.
@@ -114,12 +116,13 @@ void client_line::lose(row& of, const std::string& why, std::uint16_t code)
 
 bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
 {
+    plan();
     bool due = false;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
         row& of = routes_[i];
         if (!writes(of.content.way) || !touches(of.content, plc, changed))
             continue;
-        if (of.half && words_in_memory(of.content) == reading(of).agreed)
+        if (of.half && words_in_memory(of.content) == reading_row(of).agreed)
             continue;  // it came from the station
         if (of.through && words_in_memory(of.content) == of.agreed)
             continue;  // a write that failed was taken back
@@ -132,6 +135,7 @@ bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
 
 bool client_line::memory_written()
 {
+    plan();
     bool due = false;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
         row& of = routes_[i];
@@ -148,6 +152,7 @@ bool client_line::memory_written()
 
 std::vector<std::uint64_t> client_line::write_through(const plc::simulated_plc& plc)
 {
+    plan();
     std::vector<std::uint64_t> numbers;
     for (std::size_t i = 0; i < routes_.size(); ++i) {
         row& of = routes_[i];
@@ -160,7 +165,7 @@ std::vector<std::uint64_t> client_line::write_through(const plc::simulated_plc& 
         else if (schedule_.state_of(of.station) == health::down)  // at once: the line is for the living
             through_ended(of, modbus::exception_code::gateway_target_failed_to_respond);
         else
-            schedule_.ask(i);
+            ask_write(of);
     }
     return numbers;
 }
@@ -180,7 +185,7 @@ void client_line::through_ended(row& of, std::optional<modbus::exception_code> f
         through_outcomes_.push_back({number, failed});
     if (!failed || !somebody_waited || !of.waiting.empty())
         return;
-    schedule_.forget(static_cast<std::size_t>(&of - routes_.data()));  // who wanted it knows that it failed
+    schedule_.forget(write_item(of));  // who wanted it knows that it failed
     put_words(of.content, of.agreed);
 }
 

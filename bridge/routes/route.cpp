@@ -41,25 +41,17 @@ modbus::request write_question(const route& r, const modbus_place& to)
     return modbus::write_multiple_registers{to.first, std::move(words)};
 }
 
-// One overload for each protocol.
-struct asker {
+// One overload for each protocol: a write of what the memory holds.
+struct write_asker {
     const route& r;
 
-    station_question operator()(const modbus_place& there) const
-    {
-        if (r.way == direction::read)
-            return modbus::request{modbus::read_table{there.table, there.first, r.count}};
-        return write_question(r, there);
-    }
+    station_question operator()(const modbus_place& there) const { return write_question(r, there); }
     station_question operator()(const mewtocol::device& there) const
     {
-        const bool reads = r.way == direction::read;
         if (const auto* const contact = std::get_if<mewtocol::contact>(&there))
-            return reads ? mewtocol::block{mewtocol::read_run{*contact, r.count}}
-                         : mewtocol::block{mewtocol::write_run{*contact, bits_in_memory(r)}};
+            return mewtocol::block{mewtocol::write_run{*contact, bits_in_memory(r)}};
         const auto& [area, first] = std::get<mewtocol::word_device>(there);
-        return reads ? mewtocol::block{mewtocol::read_words{area, first, r.count}}
-                     : mewtocol::block{mewtocol::write_words{area, first, registers_in_memory(r)}};
+        return mewtocol::block{mewtocol::write_words{area, first, registers_in_memory(r)}};
     }
 };
 
@@ -132,7 +124,10 @@ bool touches(const route& r, const plc::simulated_plc& plc, const plc::change& c
     return r.plc == &plc && plc::overlaps(changed, r.at, bits_of(r));
 }
 
-station_question question_of(const route& r) { return std::visit(asker{r}, r.there); }
+station_question question_of(const route& r)
+{
+    return r.way == direction::read ? read_question(r.there, r.count) : std::visit(write_asker{r}, r.there);
+}
 
 void store(route& r, const station_question& question, const station_answer& answer)
 {

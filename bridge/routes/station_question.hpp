@@ -39,12 +39,21 @@ bool is_bits(const station_place& p);
 std::string area_name(const station_place& p);  // "holding", "coil" ..., "DT", "R" ...
 std::uint32_t number(const station_place& p);   // of the first register, bit, word or contact; R1F is 31
 
+station_place moved_to(station_place p, std::uint32_t number);  // in the same table or area; it has such a number
+
 using station_question = std::variant<modbus::request, mewtocol::block>;
 using station_answer = std::variant<modbus::response, mewtocol::response>;
 
+station_question read_question(const station_place& first, std::uint32_t count);
+
+// What was read from the offset on: an answer as if only these had been asked. Of what is no read, nothing changes.
+station_answer part_of(const station_answer& answer, std::size_t offset, std::size_t count);
+
 struct station_refusal {
-    std::string reason;    // "exception 02 (illegal data address)", "error 61 (data), result 6"
-    bool may_pass{};       // "not now" rather than "never"
+    std::string reason;  // "exception 02 (illegal data address)", "error 61 (data), result 6"
+    bool may_pass{};     // "not now" rather than "never"
+    // Whether a shorter request, or one of other registers, may be answered.
+    enum class cause : std::uint8_t { other, place, length } about = cause::other;
     std::uint16_t code{};  // exception or error code
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bridge/dds/settings.hpp"
+#include "bridge/routes/read_plan.hpp"
 #include "bridge/routes/route.hpp"
 #include "daemon/config/message_config.hpp"
 #include "daemon/config/mewtocol_config.hpp"
@@ -105,6 +106,9 @@ struct station_config {
     unsigned unit = 1;
     std::optional<milliseconds> response_timeout;  // of the line, if absent
     std::optional<unsigned> retries;
+    merge_mode merge = merge_mode::automatic;
+    unsigned max_registers = 0;  // in one request; 0: what the protocol allows
+    unsigned max_bits = 0;
     status_config status;
 };
 
@@ -162,6 +166,10 @@ struct control_config {
     std::string socket;  // empty: control.sock in the runtime directory
 };
 
+struct state_config {
+    std::string folder;  // empty: systemd's state directory, or the user's
+};
+
 struct gateway_config {
     std::string schema;  // for editors only
     std::string gateway = "gateway";
@@ -175,6 +183,7 @@ struct gateway_config {
     dds_config dds;
     log_config log;
     control_config control;
+    state_config state;
 };
 
 }  // namespace plcgw

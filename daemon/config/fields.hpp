@@ -24,6 +24,8 @@ inline constexpr choice<direction> directions[] = {{"read", direction::read},
                                                    {"write-through", direction::write_through},
                                                    {"read-write", direction::read_write},
                                                    {"periodic-write", direction::periodic_write}};
+inline constexpr choice<merge_mode> merge_modes[] = {
+    {"auto", merge_mode::automatic}, {"adjacent", merge_mode::adjacent}, {"off", merge_mode::off}};
 inline constexpr choice<modbus::table> tables[] = {{"coil", modbus::table::coils},
                                                    {"discrete", modbus::table::discrete_inputs},
                                                    {"input", modbus::table::input_registers},
@@ -167,6 +169,15 @@ void describe(Visitor& v, station_config& c)
         range{0, 999});
     v.optional("response_timeout_ms", c.response_timeout, "As at the line, for this station", range{1, 60'000});
     v.optional("retries", c.retries, "As at the line, for this station", range{0, 20});
+    v.optional("merge", c.merge,
+               "Which reads share a request. auto: whatever costs least bus time; adjacent: nothing is read that no "
+               "route wants; off: each route has its own",
+               merge_modes);
+    v.optional(
+        "max_registers", c.max_registers,
+        "Registers or words at most in one request that serves several routes; 0 = as many as the protocol allows",
+        range{0, 125});
+    v.optional("max_bits", c.max_bits, "Bits, likewise", range{0, 2000});
     v.optional("status", c.status, "Words of a PLC that show how it does");
 }
 
@@ -257,6 +268,13 @@ void describe(Visitor& v, control_config& c)
 }
 
 template <class Visitor>
+void describe(Visitor& v, state_config& c)
+{
+    v.optional("folder", c.folder,
+               "Folder of what is kept across restarts; empty: systemd's state directory, or the user's", text{});
+}
+
+template <class Visitor>
 void describe(Visitor& v, gateway_config& c)
 {
     v.optional("$schema", c.schema, "Path of the JSON Schema, for editors", text{});
@@ -271,6 +289,7 @@ void describe(Visitor& v, gateway_config& c)
     v.optional("dds", c.dds, "DDS");
     v.optional("log", c.log, "Logging");
     v.optional("control", c.control, "Commands for the running gateway");
+    v.optional("state", c.state, "What the gateway has learned about its devices");
 }
 
 }  // namespace plcgw::config

@@ -51,6 +51,7 @@ FULL = {
                                         "before_error": "", "before_piece": "", "dt": "DT", "ld": "LD", "wx": "WX",
                                         "wy": "WY", "wr": "WR", "wl": "WL"}}}],
     "stations": [{"name": "s", "line": "l", "unit": 1, "response_timeout_ms": 100, "retries": 0,
+                  "merge": "adjacent", "max_registers": 60, "max_bits": 500,
                   "status": {"plc": "b", "device": "D500", "order": "ABCD"}},
                  {"name": "t", "line": "l", "unit": 2}, {"name": "p", "line": "w", "unit": 7}],
     "routes": [{"name": "r", "station": "s", "table": "input", "first": 0, "count": 2, "plc": "a", "device": "D100",
@@ -75,6 +76,7 @@ FULL = {
             "longest_silence_ms": 500, "blocks": [{"plc": "a", "device": "D0", "count": 4}]},
     "log": {"level": "info"},
     "control": {"socket": "control.sock"},
+    "state": {"folder": "state"},
 }
 FILES = {"setup.txt": "LD M8411\n"}
 

@@ -38,7 +38,7 @@ class Check(unittest.TestCase):
             with self.subTest(path.name):
                 answer = gateway("check", path)
                 self.assertEqual((answer.returncode, answer.stderr), (0, ""))
-                self.assertRegex(answer.stdout, r"^.+ is correct: \d+ PLCs?, \d+ lines?, .*\n$")
+                self.assertRegex(answer.stdout, r"^.+ is correct: \d+ PLCs?, \d+ lines?, .*\n")
 
     def test_an_empty_object_is_correct(self):
         path = self.write("a.json", "{}")

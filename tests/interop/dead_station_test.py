@@ -42,7 +42,9 @@ class DeadStationTest(InteropTest):
                   for name, count in ROUTES.items() for i, place in enumerate(("first", "second", "third")[:count])]
         self.gateway = self.start_gateway(self.configuration(
             lines=[serial_line(self.folder / "line", response_timeout_ms=300, retries=1)],
-            stations=[station("one", 1), station("two", 2), station("three", 3)], routes=routes))
+            # One request for each route: the devices count requests.
+            stations=[station(name, unit, merge="off") for name, unit in (("one", 1), ("two", 2), ("three", 3))],
+            routes=routes))
         self.watch = self.gateway.watch()
         for each in routes:
             self.watch.expect(each["name"], quality="good")

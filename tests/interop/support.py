@@ -288,6 +288,7 @@ class InteropTest(unittest.TestCase):
                 "dds": {"domain": 1 + os.getpid() % 100, "interface": "lo",
                         "partition": f"interop.{os.getpid()}.{id(self)}", **(dds or {})},
                 "control": {"socket": str(self.control_socket)},
+                "state": {"folder": str(self.folder / "state")},
                 **more}
 
     @property

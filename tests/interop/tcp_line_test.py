@@ -77,11 +77,11 @@ class FakeServer(threading.Thread):
 
 
 class TcpLineTest(InteropTest):
-    def start(self, port, host="127.0.0.1", routes=None, **line):
+    def start(self, port, host="127.0.0.1", routes=None, merge="auto", **line):
         self.gateway = self.start_gateway(self.configuration(
             lines=[{"name": "line", "protocol": "modbus-tcp", "host": host, "port": port, "response_timeout_ms": 500,
                     **line}],
-            stations=[station("pump", 1)],
+            stations=[station("pump", 1, merge=merge)],
             routes=routes or [route("pump.low", "holding", 10, "D100", 2, period_ms=50)]))
         self.watch = self.gateway.watch()
         self.client = self.gateway.client()
@@ -159,7 +159,7 @@ class TcpLineTest(InteropTest):
         self.server = FakeServer(self)
         routes = [route(f"pump.{i}", "holding", 10 * i, f"D{100 + 10 * i}", 2, period_ms=20) for i in range(8)]
         self.server.start()
-        self.start(self.server.port, routes=routes, **line)
+        self.start(self.server.port, routes=routes, merge="off", **line)  # many requests are what this is about
 
     def expect_fake_values(self):
         for i in range(8):

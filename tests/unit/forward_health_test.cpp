@@ -151,7 +151,7 @@ TEST_CASE("forwarding: broadcasts have no health")
 
 TEST_CASE("learned timeouts: between the bounds, and the whole time for a station that was silent once")
 {
-    client_line line("bus", {{"pump", pump, hasty, 30ms}}, {.longest_silence = 10s});
+    client_line line("bus", {{"pump", pump, hasty, {}, 30ms}}, {.longest_silence = 10s});
     line.port_opened();
     time_point now = t0;
     for (int i = 0; i < 20; ++i) {

@@ -22,15 +22,15 @@ struct told_pump : line_fixture {
     }
 };
 
-const modbus::request reading = modbus::read_table{modbus::table::coils, modbus::address{0}, 1};
+const modbus::request some_read = modbus::read_table{modbus::table::coils, modbus::address{0}, 1};
 
 }  // namespace
 
 TEST_CASE("modbus line: a station that was told its delimiter is spoken to with it, its neighbour is not")
 {
     told_pump f;
-    CHECK(f.ask(reading).timing.delimiter == '$');
-    CHECK(f.ask(reading, modbus::unit_id{6}).timing.delimiter == '\n');
+    CHECK(f.ask(some_read).timing.delimiter == '$');
+    CHECK(f.ask(some_read, modbus::unit_id{6}).timing.delimiter == '\n');
 }
 
 TEST_CASE(
@@ -40,12 +40,12 @@ TEST_CASE(
     const auto q =
         f.ask(modbus::diagnostics{modbus::diagnostic::change_ascii_delimiter, {'#', 0}}, modbus::unit_id::broadcast);
     f.answer(q, modbus::no_response{});
-    CHECK(f.ask(reading).timing.delimiter == '#');
+    CHECK(f.ask(some_read).timing.delimiter == '#');
     CHECK(f.ask(modbus::write_single_coil{}, modbus::unit_id::broadcast).timing.delimiter == '#');
-    const auto other = f.ask(reading, modbus::unit_id{6});
+    const auto other = f.ask(some_read, modbus::unit_id{6});
     CHECK(other.timing.delimiter == '#');
     f.fail(other);
-    CHECK(f.ask(reading, modbus::unit_id{6}).timing.delimiter == '\n');
+    CHECK(f.ask(some_read, modbus::unit_id{6}).timing.delimiter == '\n');
 }
 
 TEST_CASE("modbus line: who asks may bring a delimiter, but what the station was told goes before it")
@@ -53,9 +53,9 @@ TEST_CASE("modbus line: who asks may bring a delimiter, but what the station was
     told_pump f;
     modbus::serial_options own;
     own.delimiter = '#';
-    f.line.forward(modbus::unit_id{6}, reading, own);
+    f.line.forward(modbus::unit_id{6}, some_read, own);
     CHECK(f.next().timing.delimiter == '#');
-    f.line.forward(modbus::unit_id{5}, reading, own);
+    f.line.forward(modbus::unit_id{5}, some_read, own);
     CHECK(f.next().timing.delimiter == '$');
 }
 
@@ -65,18 +65,18 @@ TEST_CASE("modbus line: a refused delimiter is not used")
     f.line.port_opened();
     f.line.forward(modbus::unit_id{5}, modbus::diagnostics{modbus::diagnostic::change_ascii_delimiter, {'$', 0}});
     f.answer(f.next(), modbus::exception_code::illegal_function);
-    f.line.forward(modbus::unit_id{5}, reading);
+    f.line.forward(modbus::unit_id{5}, some_read);
     CHECK(f.next().timing.delimiter == '\n');
 }
 
 TEST_CASE("modbus line: a told station that falls silent is asked in both ways by turns, for its power may have failed")
 {
     told_pump f;
-    f.fail(f.ask(reading));
-    const auto second = f.ask(reading);
+    f.fail(f.ask(some_read));
+    const auto second = f.ask(some_read);
     CHECK(second.timing.delimiter == '\n');
     f.answer(second, modbus::bits_read{{true}});
-    CHECK(f.ask(reading).timing.delimiter == '\n');
+    CHECK(f.ask(some_read).timing.delimiter == '\n');
 }
 
 TEST_SUITE_END();

@@ -171,7 +171,7 @@ TEST_CASE(
     route zero = f.route_to("D100", table::holding_registers, 0, 2);
     zero.substitute = {0, 99};
     f.line.add_route(std::move(zero), 0, 1s);
-    f.line.add_route(f.route_to("D200", table::holding_registers, 9, 1), 0, 1s);
+    f.line.add_route(f.route_to("D200", table::input_registers, 9, 1), 0, 1s);
     f.line.port_opened();
     f.line.start(t0);
     for (int i = 0; i < 2; ++i) {
