@@ -70,9 +70,9 @@ class BusTime(unittest.TestCase):
 
     def test_requests_are_shown_with_their_routes(self):
         self.assertEqual(self.plan([route("speed", 0, 3), route("hours", 5, 1)]).splitlines(),
-                         ["line1: 34.6 ms/s, 3.5 %",
+                         ["line1: 34.7 ms/s, 3.5 %",
                           "  pump (unit 1), turnaround 5.0 ms assumed",
-                          "    holding 0-5 every 1000 ms, 34.6 ms, 34.6 ms/s: speed hours"])
+                          "    holding 0-5 every 1000 ms, 34.7 ms, 34.7 ms/s: speed hours"])
 
     def test_why_each_split_is_where_it_is(self):
         rows = [
@@ -82,7 +82,7 @@ class BusTime(unittest.TestCase):
             ([route("a", 0), route("b", 1)], {"merge": "off"}, "merge is off"),
             ([route("a", 0), route("b", 2)], {"merge": "adjacent"}, "a gap of 1, and merge is adjacent"),
             ([route("a", 0, 1, 100), route("b", 1, 20, 5000)], {},
-             "another period: together they cost 66.0 ms every 100 ms"),
+             "another period: together they cost 65.9 ms every 100 ms"),
         ]
         for routes, keys, why in rows:
             with self.subTest(why):

@@ -35,7 +35,7 @@ class PickyDevices(InteropTest):
         self.routes = routes
         self.config = self.configuration(
             lines=[serial_line(self.folder / "line", baud_rate=115200)], stations=[station("pump", 1, **keys)],
-            routes=[route(f"r{first}", "holding", first, f"D{first}", count, period_ms=50) for first, count in routes])
+            routes=[route(f"pump.{first}", "holding", first, f"D{first}", count, period_ms=50) for first, count in routes])
         self.run_gateway()
 
     def run_gateway(self):
@@ -46,7 +46,7 @@ class PickyDevices(InteropTest):
     def expect_good(self, *but):
         for first, count in self.routes:
             if first not in but:
-                self.watch.expect(f"r{first}", quality="good", values=list(range(first, first + count)))
+                self.watch.expect(f"pump.{first}", quality="good", values=list(range(first, first + count)))
                 self.assertEqual(self.client.holding(first, count), list(range(first, first + count)))
 
     def settled(self, *expected):
@@ -70,7 +70,7 @@ class PickyDevices(InteropTest):
         self.expect_good()
         self.settled((0, 4), (6, 4))
         self.assertEqual(self.device.requests.count((0, 10)), 1)
-        for name in ("r0", "r6"):
+        for name in ("pump.0", "pump.6"):
             self.assertNotIn("device error", [each["quality"] for each in self.watch.of(name)])
         self.assertEqual(self.gateway.log.count("in one request"), 1)
         self.assertIn("station pump (unit 1) refuses holding 0-9 in one request: exception 02", self.gateway.log)
@@ -95,11 +95,11 @@ class PickyDevices(InteropTest):
     def test_one_bad_register_leaves_its_neighbours_alone(self):
         self.start([(0, 4), (4, 4), (8, 4), (12, 4)], missing=[9])
         self.expect_good(8)
-        self.watch.expect("r8", quality="device error")
+        self.watch.expect("pump.8", quality="device error")
         self.settled((0, 8), (8, 4), (12, 4))
-        for name in ("r0", "r4", "r12"):
+        for name in ("pump.0", "pump.4", "pump.12"):
             self.assertNotIn("device error", [each["quality"] for each in self.watch.of(name)])
-        holds("the neighbours are read", lambda: self.watch.latest("r4")["quality"] == "good", 1)
+        holds("the neighbours are read", lambda: self.watch.latest("pump.4")["quality"] == "good", 1)
 
     def test_a_damaged_state_file_is_reported_and_replaced(self):
         state = self.folder / "state"
