@@ -1,11 +1,10 @@
 #include "daemon/gateway.hpp"
 
 #include "daemon/config/program_file.hpp"
+#include "daemon/control_command.hpp"
 #include "daemon/control_path.hpp"
 #include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
-#include "daemon/plc_command.hpp"
-#include "daemon/plc_link_command.hpp"
 #include "daemon/service_notify.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -225,9 +224,7 @@ void gateway::start_control()
 
 nlohmann::json gateway::command(const nlohmann::json& what)
 {
-    if (what.value("command", "") == "plc-link")
-        return plc_link_command(links_.get(), now());
-    nlohmann::json reply = plc_command(plcs_, what);
+    nlohmann::json reply = control_command(plcs_, links_.get(), what, now());
     settle_memory();
     return reply;
 }

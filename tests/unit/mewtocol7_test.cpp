@@ -151,7 +151,7 @@ TEST_CASE("mewtocol7: a damaged request is never executed, a damaged response is
             framer.feed(t0, received);
             server s({.own = station_id{1}, .dialect = {}});
             while (const auto r = framer.next(t0 + 1s))
-                count += std::holds_alternative<command>(s.hear(t0, *r)) ? 1 : 0;
+                count += std::holds_alternative<command>(s.hear(t0, *r)) ? 1U : 0U;
             return count;
         };
         const auto is_answered = [&](const buffer& received) {
@@ -169,10 +169,10 @@ TEST_CASE("mewtocol7: a damaged request is never executed, a damaged response is
         };
         const buffer request = with_cr(row.request);
         const bool is_executed = row.asked && !row.reply.empty();
-        CHECK(executed_in(request) == (is_executed ? 1 : 0));
+        CHECK(executed_in(request) == (is_executed ? 1U : 0U));
         buffer twice = request;
         twice.insert(twice.end(), request.begin(), request.end());
-        CHECK(executed_in(twice) == (is_executed ? 2 : 0));
+        CHECK(executed_in(twice) == (is_executed ? 2U : 0U));
         if (!believed)
             every_damage(request, [&](const buffer& damaged) { CHECK(executed_in(damaged) == 0); });
         if (row.reply.empty())
