@@ -19,7 +19,7 @@ TEST_CASE("check: a value that cannot be read has no consequences")
          "65 /modbus_tcp/0/units/1/unit is 256, expected a whole number from 0 to 255"},
         // The default direction is read, which a broadcast cannot.
         {R"("direction": "write")", R"("direction": "out")",
-         R"(51 /routes/1/direction is "out", expected one of: read, write, read-write, periodic-write)"},
+         R"(51 /routes/1/direction is "out", expected one of: read, write, write-through, read-write, periodic-write)"},
         {R"("direction": "write")", R"("drection": "write")",
          R"(51 /routes/1/drection is no known key: did you mean "direction"?)"},
         // The default table holds registers: at most 125, and sixteen bits for each.
