@@ -109,7 +109,7 @@ def is_leaf(schema):
 
 def wrong_values(schema):
     if "enum" in schema:
-        return ["nonsense", schema["enum"][0].upper(), "", 0, None, True, [], {}]
+        return ["nonsense", schema["enum"][0].swapcase(), "", 0, None, True, [], {}]
     if schema["type"] == "boolean":
         return [0, 1, "true", None, [], {}]
     if schema["type"] == "integer":
