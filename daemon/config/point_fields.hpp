@@ -33,19 +33,20 @@ void describe(Visitor& v, point_config& c)
                "register first, BADC with the bytes of each register turned round, DCBA both",
                value_orders);
     v.optional("characters", c.characters, "Of text: room for so many bytes, two in a register", range{0, 255});
-    v.optional("scale", c.scale, "The value is what the devices hold times this, plus the offset", number{-1e30, 1e30});
-    v.optional("offset", c.offset, "See scale", number{-1e30, 1e30});
+    v.optional("scale", c.scale, "The value is what the devices hold times this, plus the offset",
+               real_range{-1e30, 1e30});
+    v.optional("offset", c.offset, "See scale", real_range{-1e30, 1e30});
     v.optional("unit", c.unit, "UCUM code, such as Cel, kPa, m3/h", text{0, 16});
-    v.optional("min", c.least, "Least value that makes sense", number{-1e30, 1e30});
-    v.optional("max", c.most, "Largest value that makes sense", number{-1e30, 1e30});
+    v.optional("min", c.least, "Least value that makes sense", real_range{-1e30, 1e30});
+    v.optional("max", c.most, "Largest value that makes sense", real_range{-1e30, 1e30});
     v.optional(
         "outside", c.outside,
         "What a value outside min and max is: clamp to the limit; reject and keep the last one inside; uncertain "
         "and shown. Written: clamp, or else refused",
         limit_policies);
-    v.optional("deadband", c.deadband, "Changes up to this are not published", number{0, 1e30});
+    v.optional("deadband", c.deadband, "Changes up to this are not published", real_range{0, 1e30});
     v.optional("deadband_percent", c.deadband_percent, "The same in percent of the span from min to max",
-               number{0, 100});
+               real_range{0, 100});
     v.optional("longest_silence_ms", c.longest_silence, "Published again after this time; 0 = only when it changes",
                range{0, 86'400'000});
     v.optional("writable", c.writable, "DDS clients may write it");

@@ -133,7 +133,7 @@ void reader::read(const nlohmann::json& from, const std::string& at, std::vector
         read(from[i], at + "/" + std::to_string(i), out.emplace_back(), rule);
 }
 
-void reader::read(const nlohmann::json& from, const std::string& at, double& out, const number& rule)
+void reader::read(const nlohmann::json& from, const std::string& at, double& out, const real_range& rule)
 {
     const double value = from.is_number() ? from.get<double>() : std::nan("");
     if (value >= rule.least && value <= rule.most)

@@ -40,7 +40,7 @@ private:
     void read(const nlohmann::json& from, const std::string& at, bool& out);
     void read(const nlohmann::json& from, const std::string& at, unsigned& out, const range& rule);
 
-    void read(const nlohmann::json& from, const std::string& at, double& out, const number& rule);
+    void read(const nlohmann::json& from, const std::string& at, double& out, const real_range& rule);
     void read(const nlohmann::json& from, const std::string& at, std::vector<unsigned>& out, const range& rule);
 
     template <class Period>

@@ -13,7 +13,7 @@ struct range {
 };
 
 // Not only whole ones.
-struct number {
+struct real_range {
     double least;
     double most;
 };

@@ -38,16 +38,19 @@ json value_schema(unsigned value, const range& rule)
     return s;
 }
 
-json number_schema(const number& rule) { return {{"type", "number"}, {"minimum", rule.least}, {"maximum", rule.most}}; }
+json number_schema(const real_range& rule)
+{
+    return {{"type", "number"}, {"minimum", rule.least}, {"maximum", rule.most}};
+}
 
-json value_schema(double value, const number& rule)
+json value_schema(double value, const real_range& rule)
 {
     json s = number_schema(rule);
     s["default"] = value;
     return s;
 }
 
-json value_schema(const std::optional<double>&, const number& rule) { return number_schema(rule); }
+json value_schema(const std::optional<double>&, const real_range& rule) { return number_schema(rule); }
 
 json value_schema(const std::vector<unsigned>&, const range& rule)
 {

@@ -39,7 +39,7 @@ struct value_writer {
     }
     static void put(json& to, bool value) { to = value; }
     static void put(json& to, unsigned value, const range&) { to = value; }
-    static void put(json& to, double value, const config::number&) { to = value; }
+    static void put(json& to, double value, const real_range&) { to = value; }
     static void put(json& to, const std::vector<unsigned>& value, const range&) { to = value; }
     template <class Period>
     static void put(json& to, std::chrono::duration<std::int64_t, Period> value, const range&)

@@ -135,12 +135,12 @@ TEST_CASE("check: loss, status and upstream of a route")
          "10 /routes/3/loss_value is missing: one value for all registers or bits, or one for each"},
         {in + R"("on_loss": "value", "loss_value": [1, 2])",
          "10 /routes/3/loss_value has 2 values, expected one, or one for each of the 3"},
-        {in + R"("loss_value": [1])", R"(10 /routes/3/loss_value has no effect without "on_loss": "value")"},
+        {in + R"("loss_value": [1])", R"(10 /routes/3/loss_value does nothing without "on_loss": "value")"},
         {R"("station": "s", "table": "coil", "first": 0, "plc": "main", "device": "M0", "on_loss": "value",
 "loss_value": [2])",
          "11 /routes/3/loss_value is for bits: give 0 or 1"},
         {in + R"("status": {"plc": "other"})", R"(10 /routes/3/status lacks "device": the first of the status words)"},
-        {in + R"("status": {"device": "D103"})",
+        {in + R"("status": {"device": "D96"})",
          "10 /routes/3/status/device overlaps with the devices of route \"in\": each device has one source"},
         {in + R"("status": {"device": "D7995"})",
          "10 /routes/3/status/device is D7995, but from there the count goes beyond D7999, the last one"},
@@ -149,7 +149,7 @@ TEST_CASE("check: loss, status and upstream of a route")
         {out + R"("upstream": {"longest_silence_ms": 5000})",
          "10 /routes/3/upstream/safe is missing: one value for all registers or bits, or one for each"},
         {out + R"("upstream": {"safe": [0]})",
-         R"(10 /routes/3/upstream/safe has no effect without "longest_silence_ms")"},
+         R"(10 /routes/3/upstream/safe does nothing without "longest_silence_ms")"},
     };
     for (const auto& row : rows) {
         INFO(row.row);
@@ -194,9 +194,7 @@ TEST_CASE("check: routes from PLC to PLC")
         {R"("from": {"plc": "main", "device": "D0"}, "count": 2, "plc": "other", "device": "D0"},
 {"name": "b", "from": {"plc": "other", "device": "D0"}, "plc": "main", "device": "D1"},
 {"name": "c", "from": {"plc": "other", "device": "D1"}, "plc": "main", "device": "D0")",
-         "10 /routes/3/from is copied in a circle that comes back to other devices: each change would go on for ever\n"
-         "11 /routes/4/from is copied in a circle that comes back to other devices: each change would go on for ever\n"
-         "12 /routes/5/from is copied in a circle that comes back to other devices: each change would go on for ever"},
+         "10 /routes/3/from is copied in a circle that comes back to other devices: each change would go on for ever"},
     };
     for (const judged& row : rows) {
         INFO(std::string(row.row));

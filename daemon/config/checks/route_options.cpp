@@ -27,7 +27,7 @@ void check_loss(check_context& c, std::size_t i, const route_config& r, bool are
     else if (r.on_loss == loss_policy::value)
         check_values(c, item("routes", i, "loss_value"), r.loss_value, r.count, are_bits);
     else if (!r.loss_value.empty())
-        c.complain(item("routes", i, "loss_value"), "has no effect without \"on_loss\": \"value\"");
+        c.complain(item("routes", i, "loss_value"), "does nothing without \"on_loss\": \"value\"");
 }
 
 void check_upstream(check_context& c, std::size_t i, const route_config& r, bool are_bits)
@@ -36,7 +36,7 @@ void check_upstream(check_context& c, std::size_t i, const route_config& r, bool
     const std::string at = item("routes", i, "upstream");
     if (u.longest_silence.count() == 0) {
         if (!u.safe.empty())
-            c.complain(at + "/safe", "has no effect without \"longest_silence_ms\"");
+            c.complain(at + "/safe", "does nothing without \"longest_silence_ms\"");
         return;
     }
     if (reads(r.way))
