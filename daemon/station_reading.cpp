@@ -27,9 +27,9 @@ station_place place_of(const route_config& r)
     return *mewtocol::parse_device(r.source);
 }
 
-reading reading_of(const line_config& line, const station_config& station)
+read_settings reading_of(const line_config& line, const station_config& station)
 {
-    reading made{.merge = station.merge, .max_registers = station.max_registers, .max_bits = station.max_bits};
+    read_settings made{.merge = station.merge, .max_registers = station.max_registers, .max_bits = station.max_bits};
     made.bus.protocol = protocol_of(line.protocol);
     made.bus.format = format_of(line);
     made.bus.gap = line.gap;

@@ -8,14 +8,14 @@ namespace plcgw {
 
 station_place place_of(const route_config& r);  // of a configuration without mistakes
 
-reading reading_of(const line_config& line, const station_config& station);
+read_settings reading_of(const line_config& line, const station_config& station);
 
 // A station of a client line, and its read routes in their order.
 struct station_wants {
     const station_config* station{};
     std::vector<const route_config*> routes;
     std::vector<wanted_read> wanted;
-    reading how;
+    read_settings how;
 };
 
 std::vector<station_wants> wants_of(const gateway_config& all, const line_config& line);

@@ -9,19 +9,19 @@ namespace {
 
 constexpr duration least_longest_delay = std::chrono::seconds(5);
 
-std::vector<reading> readings_of(const std::vector<station>& stations)
+std::vector<read_settings> reads_of(const std::vector<station>& stations)
 {
-    std::vector<reading> readings;
+    std::vector<read_settings> all;
     for (const station& each : stations)
-        readings.push_back(each.reads);
-    return readings;
+        all.push_back(each.reads);
+    return all;
 }
 
 }  // namespace
 
 client_line::client_line(std::string name, std::vector<station> stations, const line_options& options)
     : name_(std::move(name)), options_(options), stations_(std::move(stations)), times_(stations_.size()),
-      polls_(readings_of(stations_)), schedule_(stations_.size()), forwards_(options.cache_age)
+      polls_(reads_of(stations_)), schedule_(stations_.size()), forwards_(options.cache_age)
 {
     schedule_.set_parallel(options.parallel);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
@@ -60,7 +60,7 @@ std::optional<client_line::question> client_line::next(time_point now)
     forwards_came_ = false;
     auto turn = schedule_.next(now, forwards_wake_ <= now);
     while (turn && is_idle(*turn)) {
-        schedule_.finished(*turn, schedule::outcome::not_asked, {}, now);
+        schedule_.pass(*turn, now);
         turn = schedule_.next(now, forwards_wake_ <= now);
     }
     if (!turn)

@@ -17,7 +17,7 @@ struct station {
     std::string name;
     station_number unit;
     modbus::serial_options timing;
-    struct reading reads {};
+    read_settings reads{};
     std::optional<duration> shortest_timeout{};  // the response timeout is learned: at least this, at most timing's
 };
 

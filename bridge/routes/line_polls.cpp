@@ -17,9 +17,9 @@ read_block block_of(const line_polls::item& poll) { return {number(poll.first), 
 
 }  // namespace
 
-line_polls::line_polls(std::vector<reading> stations)
+line_polls::line_polls(std::vector<read_settings> stations)
 {
-    for (reading& each : stations)
+    for (read_settings& each : stations)
         stations_.push_back({std::move(each), {}, {}});
 }
 

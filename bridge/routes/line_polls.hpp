@@ -17,7 +17,7 @@ public:
         std::uint32_t count{};
     };
 
-    explicit line_polls(std::vector<reading> stations);
+    explicit line_polls(std::vector<read_settings> stations);
 
     // Routes are numbered by their order here, from 0.
     void add_read(std::size_t station, wanted_read wanted);
@@ -52,7 +52,7 @@ private:
         wanted_read wanted;
     };
     struct station_reads {
-        reading how;
+        read_settings how;
         std::vector<read_route> reads;
         station_limits limits;
     };

@@ -19,7 +19,7 @@ bool is_wanted_alone(const planned_poll& poll, const request_rules& rules) { ret
 
 std::string of_gap(std::uint32_t gap) { return gap == 0 ? "no gap" : "a gap of " + std::to_string(gap); }
 
-std::string reason(const planned_poll& a, const planned_poll& b, const request_rules& rules, const reading& how)
+std::string reason(const planned_poll& a, const planned_poll& b, const request_rules& rules, const read_settings& how)
 {
     const read_block all = joined(block_of(a), block_of(b));
     const std::uint32_t gap = block_of(b).first > block_of(a).end ? block_of(b).first - block_of(a).end : 0;
@@ -49,8 +49,8 @@ double share_of(const planned_poll& p)
     return static_cast<double>(p.cost.count()) / static_cast<double>(p.period.count());
 }
 
-std::vector<std::string> why_apart(const read_plan& plan, const std::vector<wanted_read>& wanted, const reading& how,
-                                   const station_limits& limits)
+std::vector<std::string> why_apart(const read_plan& plan, const std::vector<wanted_read>& wanted,
+                                   const read_settings& how, const station_limits& limits)
 {
     std::vector<std::string> reasons(plan.polls.size());
     for (std::size_t i = 0; i + 1 < plan.polls.size(); ++i) {

@@ -40,7 +40,8 @@ void add_merged(read_plan& plan, const std::vector<wanted_read>& wanted, const s
 
 read_block block_of(const planned_poll& p) { return {number(p.there), number(p.there) + p.count}; }
 
-request_rules::request_rules(const std::vector<wanted_read>& area, const reading& how, const station_limits& limits)
+request_rules::request_rules(const std::vector<wanted_read>& area, const read_settings& how,
+                             const station_limits& limits)
     : any_(area.front().there), how_(how)
 {
     how_.bus.turnaround = limits.turnaround.value_or(how.bus.turnaround);
@@ -74,7 +75,7 @@ merge_rules request_rules::for_merging() const
             .allowed = [this](const read_block& b) { return allowed(b); }};
 }
 
-read_plan plan_reads(const std::vector<wanted_read>& wanted, const reading& how, const station_limits& limits)
+read_plan plan_reads(const std::vector<wanted_read>& wanted, const read_settings& how, const station_limits& limits)
 {
     std::map<std::string, std::vector<std::size_t>> areas;
     for (std::size_t i = 0; i < wanted.size(); ++i)

@@ -13,7 +13,7 @@ enum class merge_mode : std::uint8_t {
 };
 
 // How a station is read.
-struct reading {
+struct read_settings {
     merge_mode merge = merge_mode::automatic;
     unsigned max_registers = 0;  // that the device takes in one request; 0: what the protocol allows
     unsigned max_bits = 0;
@@ -39,7 +39,7 @@ struct read_plan {
     bool is_optimal = true;           // false: too many different periods to look at everything
 };
 
-read_plan plan_reads(const std::vector<wanted_read>& wanted, const reading& how, const station_limits& limits);
+read_plan plan_reads(const std::vector<wanted_read>& wanted, const read_settings& how, const station_limits& limits);
 
 read_block block_of(const planned_poll& p);
 
@@ -47,7 +47,7 @@ read_block block_of(const planned_poll& p);
 class request_rules {
 public:
     // area: of these wanted reads; all in the same one.
-    request_rules(const std::vector<wanted_read>& area, const reading& how, const station_limits& limits);
+    request_rules(const std::vector<wanted_read>& area, const read_settings& how, const station_limits& limits);
 
     duration cost(const read_block& b) const { return exchange_time(how_.bus, question(b)); }
     bool is_too_long(const read_block& b) const;             // for protocol or configuration
@@ -69,7 +69,7 @@ private:
     }
 
     station_place any_;
-    reading how_;
+    read_settings how_;
     const table_limits* limits_ = nullptr;
     std::vector<read_block> covered_;  // by routes; apart from each other, ascending
 };

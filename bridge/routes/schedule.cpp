@@ -206,6 +206,12 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
         advance(each, now);
 }
 
+void schedule::pass(const turn& done, time_point now)
+{
+    finished(done, outcome::not_asked, {}, now);
+    load_.took(done.item, {});
+}
+
 // A station with polls is not given up for what others ask of it: it may know the polls only. The next one shows.
 void schedule::forwarded(std::size_t station, outcome how, duration took, time_point now, unanswered_requests late,
                          duration pause)

@@ -69,6 +69,7 @@ public:
     };
     // late: requests of this turn that were not answered; without it a silent turn counts as one.
     void finished(const turn& done, outcome how, duration took, time_point now, unanswered_requests late = {});
+    void pass(const turn& done, time_point now);  // a poll that is not needed any more was not asked
     // The same of a forwarded request. pause: so long its answer may come late, if it was silent.
     void forwarded(std::size_t station, outcome how, duration took, time_point now, unanswered_requests late,
                    duration pause);

@@ -35,7 +35,7 @@ class ForeignFp7Test(InteropTest):
         line = {"name": "line", "device": str(self.folder / "line"), "protocol": "mewtocol-com", "baud_rate": 115200,
                 "parity": "odd", "response_timeout_ms": 1000, "retries": 1, **self.line}
         self.gateway = self.start_gateway(self.configuration(
-            lines=[line], stations=[station("fp", 7), station("all", 0)], routes=list(routes)))
+            lines=[line], stations=[station("fp", 7, merge="off"), station("all", 0)], routes=list(routes)))
         self.watch = self.gateway.watch()
 
     def heard(self):

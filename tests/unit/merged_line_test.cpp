@@ -246,7 +246,7 @@ TEST_CASE("merged line: merge off and the largest block of a device")
 {
     for (const bool off : {true, false}) {
         merged_fixture f;
-        reading how;
+        read_settings how;
         how.merge = off ? merge_mode::off : merge_mode::automatic;
         how.max_registers = off ? 0 : 6;
         f.line = client_line("bus 1", {{"pump", unit_id{5}, patient, how}}, {.longest_silence = 10s});
