@@ -298,7 +298,7 @@ ONLY_CHECK = {
     "a TCP line without a host": '{"lines": [{"name": "l", "protocol": "modbus-tcp"}]}',
     "a server line that serves nobody": '{"lines": [{"name": "l", "device": "d", "role": "server"}]}',
     "a unit that leads nowhere": '{"modbus_tcp": [{"units": [{"unit": 1}]}]}',
-    "a channel on a server line": '{"plcs": [{"name": "a", "channels": [{"channel": 1, "line": "l"}]}], "lines": '
+    "a channel on a server line": '{"plcs": [{"name": "a", "channels": [{"channel": 2, "line": "l"}]}], "lines": '
                                   '[{"name": "l", "device": "d", "role": "server", "units": [{"unit": 1, "plc": "a"}]}]}',
     "a channel that an FX3S lacks": '{"plcs": [{"name": "a", "model": "FX3S"}], "lines": [{"name": "l", "device": "d", '
                                     '"role": "server", "units": [{"unit": 1, "plc": "a", "channel": 2}]}]}',
