@@ -17,9 +17,9 @@ def registers(value, order):
 
 
 class PointsTest(InteropTest):
-    def start(self, routes, points=(), stations=None, plcs=("main",), **more):
+    def start(self, routes, points=(), stations=None, plcs=("main",), timeout=1000, **more):
         self.gateway = self.start_gateway(self.configuration(
-            (), plcs, lines=[serial_line(self.folder / "line", response_timeout_ms=100, retries=0)],
+            (), plcs, lines=[serial_line(self.folder / "line", response_timeout_ms=timeout, retries=0)],
             stations=stations or [station("one", 1)], routes=list(routes), points=list(points), **more))
         self.watch = self.gateway.watch()
 
@@ -56,19 +56,19 @@ class PointsTest(InteropTest):
 
     def test_loss_keep_zero_and_value(self):
         device = self.device("--set", *[f"hr:{i}=7" for i in range(6)])
-        self.start([route("one.keep", "holding", 0, "D100", 2, period_ms=100),
-                    route("one.zero", "holding", 2, "D102", 2, period_ms=100, on_loss="zero"),
-                    route("one.value", "holding", 4, "D104", 2, period_ms=100, on_loss="value", loss_value=[1, 2],
+        self.start([route("one.keep", "holding", 0, "D100", 2, period_ms=200),
+                    route("one.zero", "holding", 2, "D102", 2, period_ms=200, on_loss="zero"),
+                    route("one.value", "holding", 4, "D104", 2, period_ms=200, on_loss="value", loss_value=[1, 2],
                           status={"device": "D500"})],
                    [{"name": "zero", "plc": "main", "device": "D102"}],
-                   [station("one", 1, status={"plc": "main", "device": "D520"})])
+                   [station("one", 1, status={"plc": "main", "device": "D520"})], timeout=200)
         self.point("zero", quality="good", value=7)
         wait_for("all are read", lambda: self.holding(100, 6) == [7] * 6)
-        good = self.holding(500, 8)
-        self.assertEqual([good[0], good[1], good[7]], [192, 0, 0])
+        good = wait_for("good status words", lambda: [words for words in [self.holding(500, 8)]
+                                                      if [words[0], words[1], words[7]] == [192, 0, 0]])[0]
         self.assertLess(abs((good[3] % 65536 << 16 | good[4] % 65536) - time.time()), 10)
         self.assertGreater(good[6], 0)
-        self.assertEqual(self.holding(520, 3), [0, 3, 3])
+        wait_for("the station's words", lambda: self.holding(520, 3) == [0, 3, 3])
 
         device.kill()
         wait_for("the substitutes", lambda: self.holding(100, 6) == [7, 7, 0, 0, 1, 2])
@@ -87,7 +87,7 @@ class PointsTest(InteropTest):
     def test_safe_values_when_nobody_writes(self):
         device = self.device()
         self.start([route("one.set", "holding", 0, "D100", 2, direction="write",
-                          upstream={"longest_silence_ms": 1500, "safe": [0, 50]})])
+                          upstream={"longest_silence_ms": 4000, "safe": [0, 50]})])
         client = self.gateway.client()
         client.write_registers(100, [11, 12])
         wait_for("the values", lambda: device.door.holding(0, 2) == [11, 12])
@@ -96,8 +96,8 @@ class PointsTest(InteropTest):
             client.write_register(100, 11)  # unchanged
             time.sleep(0.1)
             return device.door.holding(0, 2) == [11, 12]
-        holds("written values stay", alive, 3)
-        wait_for("the safe values", lambda: device.door.holding(0, 2) == [0, 50], seconds=5)
+        holds("written values stay", alive, 6)  # a machine that stands still for 4 s would be a lost writer
+        wait_for("the safe values", lambda: device.door.holding(0, 2) == [0, 50])
         self.assertEqual(self.gateway.log.count("nobody wrote its devices"), 1)
         client.write_registers(100, [21, 22])
         wait_for("the values again", lambda: device.door.holding(0, 2) == [21, 22])
@@ -120,15 +120,23 @@ class PointsTest(InteropTest):
 
     def test_periodic_write(self):
         device = self.device("--set", "hr:0=1")
-        self.start([route("one.beat", "holding", 0, "D100", direction="periodic-write", period_ms=200)])
+        self.start([route("one.beat", "holding", 0, "D100", direction="periodic-write", period_ms=500)])
         time.sleep(1)
         self.assertEqual(device.answers(), 0)  # nobody wrote anything yet
         self.gateway.client().write_register(100, 9)
         wait_for("the first", lambda: device.door.holding(0) == [9])
-        before, started = device.answers(), time.monotonic()
-        time.sleep(3)
-        per_period = (device.answers() - before) / ((time.monotonic() - started) / 0.2)
-        self.assertTrue(0.7 < per_period < 1.3, per_period)
+
+        def pace():
+            before, started = device.answers(), time.monotonic()
+            time.sleep(4)
+            return (device.answers() - before) / ((time.monotonic() - started) / 0.5)
+        measured = []
+        for _ in range(5):  # a machine that stands still now and then writes less often, never more
+            measured.append(pace())
+            self.assertLess(measured[-1], 1.3)
+            if measured[-1] > 0.7:
+                return
+        self.fail(f"writes per period: {measured}")
 
     def test_a_long_value_goes_to_the_station_in_one_request(self):
         device = self.device()
