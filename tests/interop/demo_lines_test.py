@@ -67,6 +67,7 @@ class DemoLinesTest(InteropTest):
         self.watch.expect("press.state", values=[0, 0, 1])
         self.client.write_register(SETPOINT, 60)
         self.watch.expect("press.state", values=[1, 0, 0])
+        wait_for("a stroke", lambda: self.watch.latest("press.values")["values"][0] > 1_000_000 & 0xFFFF)
         self.client.write_coil(START, 1)
         self.watch.expect("press.start", quality="good", values=[1])
         self.client.write_coil(START, 0)

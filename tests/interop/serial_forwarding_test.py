@@ -4,7 +4,7 @@ import struct
 import time
 
 from faulty_device import framed
-from serial_server_test import RawClient
+from raw_client import RawClient
 from support import PATIENCE, InteropTest, main, route, serial_line, station
 
 TIMEOUT = 0.3
@@ -73,5 +73,4 @@ class FolderOf:
         self.addCleanup = test.addCleanup
 
 
-if __name__ == "__main__":
-    main()
+main()

@@ -1,15 +1,12 @@
 """The gateway as RTU server on a serial line: mbpoll, pymodbus and raw frames as the client."""
 
-import os
-import select
-import struct
 import time
-import tty
 
 from pymodbus.client import ModbusSerialClient
 
 from faulty_device import framed
-from support import PATIENCE, Client, InteropTest, Refused, main, mbpoll_values, wait_for
+from raw_client import RawClient
+from support import Client, InteropTest, Refused, main, mbpoll_values, wait_for
 
 SILENT = 0.25        # seconds without an answer that are enough to say that there is none
 M8404 = 0x1E00 + 404  # listen-only mode of channel 1
@@ -24,47 +21,6 @@ class SerialClient(Client):
         self.modbus = ModbusSerialClient(str(port), baudrate=19200, parity="N", timeout=2, retries=0)
         wait_for(f"{port} opens", self.modbus.connect)
         test.addCleanup(self.modbus.close)
-
-
-class RawClient:
-    """The client's end of a pty whose other end the gateway opens as folder/line."""
-
-    def __init__(self, test):
-        self.ours, theirs = os.openpty()
-        tty.setraw(theirs)
-        os.symlink(os.ttyname(theirs), test.folder / "line")
-        self.delays = []  # seconds from before a request was written to the first byte of its answer
-        for fd in (self.ours, theirs):
-            test.addCleanup(os.close, fd)
-
-    def send(self, data):
-        self.sent_at = time.monotonic()
-        os.write(self.ours, data)
-
-    def hear(self, patience=PATIENCE):
-        """The next answer: what comes until 50 ms of silence."""
-        heard = b""
-        while select.select([self.ours], [], [], 0.05 if heard else patience)[0]:
-            if not heard:
-                self.delays.append(time.monotonic() - self.sent_at)
-            heard += os.read(self.ours, 4096)
-        return heard
-
-    def ask(self, unit, pdu, patience=PATIENCE):
-        """The answer's PDU; it must be of that unit and have a good CRC."""
-        self.send(framed(bytes([unit]) + pdu))
-        answer = self.hear(patience)
-        if answer and (answer[0] != unit or framed(answer[:-2]) != answer):
-            raise AssertionError(f"no answer of unit {unit}: {answer.hex(' ')}")
-        return answer[1:-2]
-
-    def number(self, unit, sub):
-        """A counter, by 08 and its sub-function."""
-        answer = self.ask(unit, struct.pack(">BHH", 8, sub, 0))
-        function, same, value = struct.unpack(">BHH", answer)
-        if (function, same) != (8, sub):
-            raise AssertionError(f"no answer to 08/{sub:02X}: {answer.hex(' ')}")
-        return value
 
 
 def data(text):

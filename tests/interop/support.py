@@ -354,4 +354,6 @@ def mbpoll_values(command):
 
 
 def main():
-    unittest.main(verbosity=2)
+    done = unittest.main(verbosity=2, exit=False).result
+    # A file whose tests are not found would pass without running any.
+    sys.exit(0 if done.wasSuccessful() and done.testsRun > 0 else 1)
