@@ -30,7 +30,7 @@ std::string_view cure_of(boost::system::error_code ec)
 }  // namespace
 
 gateway::gateway(asio::io_context& loop, const config::loaded& from)
-    : loop_(loop), config_(from.config), started_(wall_now()), learned_(config_.state.folder),
+    : loop_(loop), config_(from.config), started_(wall_now()), learned_(loop, config_.state.folder),
       fp7_ports_(loop, [this] { settle_memory(); }), upstream_(loop, [this] { settle_memory(); }),
       through_(loop.get_executor()), dds_(loop, config_, from.hash), blocks_(lines_, message_lines_, dds_),
       points_(loop, dds_), second_(loop), watchdog_(loop)
