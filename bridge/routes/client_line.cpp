@@ -134,7 +134,7 @@ client_line::question client_line::question_of_turn(const schedule::turn& turn, 
     question q{turn,
                stations_[chosen.station].unit,
                is_read ? read_question(chosen.first, chosen.count)
-                       : question_of(routes_[chosen.routes.front()].content),
+                       : write_or_probe(routes_[chosen.routes.front()], turn.is_wanted),
                timing_of(chosen.station),
                now,
                chosen};
@@ -173,6 +173,8 @@ void client_line::answered(const question& q, const station_answer& answer, time
         forwards_.forget(q.unit);
     else if (const auto* const response = std::get_if<modbus::response>(&answer))
         forwards_.heard(q.unit, q.request(), *response, now);
+    if (!turn.is_wanted)
+        return;  // the probe of a station: its values are nobody's
     for (const std::size_t each : q.item.routes)
         routes_[each].answered = true;
     if (const auto why = refusal_in(answer))
@@ -260,8 +262,11 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
         set_quality(routes_[each], quality::comm_error, reason, code);
     }
     note_health(station, before, reason, code);
-    if (is_write)
-        through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_target_failed_to_respond);
+    if (!is_write)
+        return;
+    through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_target_failed_to_respond);
+    if (late.count != 0 && !schedule_.is_wanted(turn.item))  // what comes late must not meet another question
+        schedule_.keep_quiet(station, now + q.timing.response_timeout);
 }
 
 void client_line::interrupted(const question& q)

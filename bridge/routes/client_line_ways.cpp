@@ -99,6 +99,12 @@ void client_line::plan_next_write(row& of, const question& q, time_point now, bo
         ask_write(of, of.next_write);
 }
 
+// A station that is only written to is probed by a read: what the memory holds now nobody may have written.
+station_question client_line::write_or_probe(const row& of, bool is_wanted)
+{
+    return is_wanted ? question_of(of.content) : read_question(of.content.there, of.content.count);
+}
+
 // A value that nobody can renew now. What is only written is as good as it was.
 void client_line::lose(row& of, const std::string& why, std::uint16_t code)
 {
