@@ -203,7 +203,7 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
         late = {1, now - took};
     if (how == outcome::silent && of.health.state() != health::down && !of.failed_item)
         of.failed_item = done.item;
-    heard(of, how, now, late);
+    heard(of, how, took, now, late);
     set_asked(each.station);
     if (how != outcome::answered && each.period == duration{} && done.is_wanted)
         each.asked = true;  // a write that nobody took is still wanted
@@ -237,11 +237,12 @@ void schedule::forwarded(std::size_t station, outcome how, duration took, time_p
     if (how == outcome::silent && late.count == 0)
         late = {1, now - took};
     if (how != outcome::silent || !of.first_poll) {
-        heard(of, how, now, late);
+        heard(of, how, took, now, late);
     }
     else {
         remember_unanswered(of, late, now);
         of.health.doubted();
+        of.failed_at = now;
         items_[*of.first_poll].due = std::min(items_[*of.first_poll].due, now);
     }
     if (how == outcome::silent)
@@ -249,7 +250,7 @@ void schedule::forwarded(std::size_t station, outcome how, duration took, time_p
     set_asked(station);
 }
 
-void schedule::heard(station_state& of, outcome how, time_point now, unanswered_requests late)
+void schedule::heard(station_state& of, outcome how, duration took, time_point now, unanswered_requests late)
 {
     remember_unanswered(of, late, now);
     if (how == outcome::answered) {
@@ -261,8 +262,9 @@ void schedule::heard(station_state& of, outcome how, time_point now, unanswered_
             of.not_before = now + std::min<duration>(of.owed * (now - of.owed_since), of.longest_delay) + slack;
         of.owed = 0;
     }
-    else if (how == outcome::silent) {
+    else if (how == outcome::silent && now - took >= of.failed_at) {
         of.health.failed(now);
+        of.failed_at = now;
     }
 }
 

@@ -105,6 +105,7 @@ private:
         time_point owed_since{};    // when the first request of these went out
         time_point last_silence{};  // when the last one did
         time_point not_before{};    // until then they may come
+        time_point failed_at{};     // a question that was under way then says nothing new by its silence
         bool counted = true;        // its polls take line time
 
         std::optional<std::size_t> probe() const { return first_poll ? first_poll : a_write; }
@@ -117,7 +118,7 @@ private:
     std::optional<std::size_t> first_poll(time_point now) const;
     std::optional<std::size_t> first_of(lane which, time_point now) const;
     turn take(lane which, std::size_t index);
-    void heard(station_state& of, outcome how, time_point now, unanswered_requests late);
+    void heard(station_state& of, outcome how, duration took, time_point now, unanswered_requests late);
     void remember_unanswered(station_state& of, unanswered_requests late, time_point now);
     void count_time(lane which, duration took, time_point now);
     void set_asked(std::size_t station);
