@@ -99,6 +99,20 @@ TEST_CASE("write-through: what the station refuses is told, taken back, and not 
     CHECK(f.is_quiet());
 }
 
+TEST_CASE("write-through: what a program wrote while the station was busy goes out again")
+{
+    through_fixture f;
+    f.set("D100", 5);
+    f.line.memory_written();
+    f.memory_changed();
+    f.answer(f.next(), exception_code::server_device_busy);
+    CHECK(f.word("D100") == 5);
+    const time_point refused_at = f.now;
+    const auto again = f.next();
+    CHECK(f.now >= refused_at + 1s);
+    CHECK(std::get<write_multiple_registers>(again.request()).values == std::vector<std::uint16_t>{5, 0});
+}
+
 TEST_CASE("write-through: a station that does not answer is 0B, at once when it is known to be down")
 {
     through_fixture f;
