@@ -113,6 +113,21 @@ TEST_CASE("write-through: what a program wrote while the station was busy goes o
     CHECK(std::get<write_multiple_registers>(again.request()).values == std::vector<std::uint16_t>{5, 0});
 }
 
+TEST_CASE("write-through: what is changed back while a write is under way is written, too")
+{
+    through_fixture f;
+    f.device_has(1, 2);
+    f.client_writes(7, 2);
+    const auto q = f.next();
+    f.set("D100", 1);  // by a program
+    f.line.memory_written();
+    f.memory_changed();
+    f.answer(q, written{});
+    CHECK(f.outcomes() == outcome_list{{2, 0}});
+    const auto back = f.next();
+    CHECK(std::get<write_multiple_registers>(back.request()).values == std::vector<std::uint16_t>{1, 2});
+}
+
 TEST_CASE("write-through: a station that does not answer is 0B, at once when it is known to be down")
 {
     through_fixture f;
