@@ -89,11 +89,12 @@ void message_line::feed(Receiver& into, bytes received)
 }
 
 // Where in the stream they were lost is not known: the message that is being received, or the next one, is dropped.
-void message_line::look_for_overruns()
+template <class Receiver>
+void message_line::look_for_overruns(Receiver& into)
 {
     const auto counted = connection_->overruns();
     if (counted && overruns_ && *counted != *overruns_)
-        content.framer().fault(now(), errc::overrun);
+        into.fault(now(), errc::overrun);
     overruns_ = counted;
 }
 
@@ -106,7 +107,7 @@ asio::awaitable<error_code> message_line::listen()
     const auto size = co_await connection_->read(until, asio::buffer(received_));
     idle_ = false;
     if (size) {
-        look_for_overruns();
+        look_for_overruns(content.framer());
         feed(content.framer(), bytes(received_).first(*size));
         line_free_from_ = std::max(line_free_from_, now() + config_.gap);
     }
@@ -143,8 +144,10 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
         else {
             const time_point until = std::get<general_purpose::exchange::wait>(action).until;
             const auto size = co_await connection_->read(until, asio::buffer(received_));
-            if (size)
+            if (size) {
+                look_for_overruns(asking);
                 feed(asking, bytes(received_).first(*size));
+            }
             else if (size.error() != asio::error::timed_out)
                 ec = size.error();
         }

@@ -28,7 +28,8 @@ private:
     asio::awaitable<boost::system::error_code> listen();
     asio::awaitable<boost::system::error_code> exchange(messages::line_messages::question question);
     void take_messages();
-    void look_for_overruns();
+    template <class Receiver>
+    void look_for_overruns(Receiver& into);
     void say_what_is_not_seen();
 
     template <class Receiver>

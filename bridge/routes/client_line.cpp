@@ -1,6 +1,7 @@
 #include "bridge/routes/client_line.hpp"
 
 #include "bridge/routes/route_status.hpp"
+#include "bridge/services/mewtocol_forward.hpp"
 
 #include <algorithm>
 
@@ -134,7 +135,7 @@ client_line::question client_line::question_of_turn(const schedule::turn& turn, 
     question q{turn,
                stations_[chosen.station].unit,
                is_read ? read_question(chosen.first, chosen.count)
-                       : question_of(routes_[chosen.routes.front()].content),
+                       : write_or_probe(routes_[chosen.routes.front()], turn.is_wanted),
                timing_of(chosen.station),
                now,
                chosen};
@@ -170,9 +171,11 @@ void client_line::answered(const question& q, const station_answer& answer, time
     note_health(station, before, {});
     note_load(now);
     if (q.item.period == duration{})
-        forwards_.forget(q.unit);
+        forwards_.forget(q.unit, now);
     else if (const auto* const response = std::get_if<modbus::response>(&answer))
-        forwards_.heard(q.unit, q.request(), *response, now);
+        forwards_.heard(q.unit, q.request(), *response, q.asked_at, now);
+    if (!turn.is_wanted)
+        return;  // the probe of a station: its values are nobody's
     for (const std::size_t each : q.item.routes)
         routes_[each].answered = true;
     if (const auto why = refusal_in(answer))
@@ -198,8 +201,10 @@ void client_line::refused(const question& q, const station_refusal& why, time_po
     if (!is_write)
         return;
     row& of = routes_[q.item.routes.front()];
-    if (of.through)
-        through_ended(of, static_cast<modbus::exception_code>(why.code));
+    if (!of.on_its_way.empty())
+        through_ended(of, std::holds_alternative<modbus::request>(q.asked)
+                              ? modbus::exception_code(why.code)
+                              : exception_of(mewtocol::error_code(why.code)));
     else
         was_refused(of, q, now, why.may_pass);
 }
@@ -254,14 +259,17 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
     schedule_.finished(turn, how, now - q.asked_at, now, late);
     const bool is_write = q.item.period == duration{};
     if (is_write)
-        forwards_.forget(q.unit);
+        forwards_.forget(q.unit, now);
     for (const std::size_t each : q.item.routes) {
         ++reading_row(routes_[each]).content.errors;
         set_quality(routes_[each], quality::comm_error, reason, code);
     }
     note_health(station, before, reason, code);
-    if (is_write)
-        through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_target_failed_to_respond);
+    if (!is_write)
+        return;
+    through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_target_failed_to_respond);
+    if (late.count != 0 && !schedule_.is_wanted(turn.item))  // what comes late must not meet another question
+        schedule_.keep_quiet(station, now + q.timing.response_timeout);
 }
 
 void client_line::interrupted(const question& q)

@@ -198,6 +198,7 @@ private:
     modbus::serial_options timing_of(std::size_t station) const;
     void note_health(std::size_t station, health before, const std::string& reason, std::uint16_t code = 0);
     void note_load(time_point now);
+    static station_question write_or_probe(const row& of, bool is_wanted);
     void through_ended(row& of, std::optional<modbus::exception_code> failed);
     void through_lost(row& of);
     std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;

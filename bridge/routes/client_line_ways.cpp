@@ -48,8 +48,9 @@ bool client_line::is_to_be_written(const row& of) const
 {
     if (!of.partner || of.half)
         return false;
-    const bool may_be_due = is_write_due(routes_[*of.partner]) || of.content.plc->memory().has_changes();
-    return may_be_due && words_in_memory(of.content) != of.agreed;
+    // A write that is under way may change the station yet, even if the memory is again as it was.
+    return is_write_due(routes_[*of.partner]) ||
+           (of.content.plc->memory().has_changes() && words_in_memory(of.content) != of.agreed);
 }
 
 void client_line::read_soon(const row& of, time_point now) { schedule_.ask(polls_.item_of_read(index_of(of)), now); }
@@ -99,6 +100,12 @@ void client_line::plan_next_write(row& of, const question& q, time_point now, bo
         ask_write(of, of.next_write);
 }
 
+// A station that is only written to is probed by a read: what the memory holds now nobody may have written.
+station_question client_line::write_or_probe(const row& of, bool is_wanted)
+{
+    return is_wanted ? question_of(of.content) : read_question(of.content.there, of.content.count);
+}
+
 // A value that nobody can renew now. What is only written is as good as it was.
 void client_line::lose(row& of, const std::string& why, std::uint16_t code)
 {
@@ -122,10 +129,10 @@ bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
         row& of = routes_[i];
         if (!writes(of.content.way) || !touches(of.content, plc, changed))
             continue;
-        if (of.half && words_in_memory(of.content) == reading_row(of).agreed)
-            continue;  // it came from the station
-        if (of.through && words_in_memory(of.content) == of.agreed)
-            continue;  // a write that failed was taken back
+        // Another value may be on its way to the station: then what it had before is to be written, too.
+        const bool is_new = is_write_due(of) || words_in_memory(of.content) != reading_row(of).agreed;
+        if ((of.half || of.through) && !is_new)
+            continue;  // it came from the station, or a write that failed was taken back
         of.first_write.reset();
         ask_write(of);
         due = true;

@@ -61,7 +61,8 @@ std::optional<forward_request> forward_queue::take(time_point now, const judge& 
                                         [&](const forward_request& each) { return what_of(each).not_before <= now; });
         if (found == of->waiting.end())
             continue;
-        group taken{found->request, {std::move(*found)}};
+        group taken{found->unit, now, found->request, {}};
+        taken.members.push_back(std::move(*found));
         of->waiting.erase(found);
         --waiting_;
         asker_queue served = std::move(*of);
@@ -111,16 +112,16 @@ void forward_queue::answer(forward_ticket ticket, result<modbus::response> respo
         return;
     group done = std::move(found->second);
     under_way_.erase(found);
-    if (done.members.empty())
-        return;
+    // Whoever asked may have left, or nobody answered: a write may have been executed all the same.
+    if (response)
+        heard(done.unit, done.asked, *response, done.asked_at, now);
+    else if (!is_read(done.asked))
+        forget(done.unit, now);
     if (!response) {
-        if (!is_read(done.asked))
-            cache_.forget(done.members.front().unit);  // it may have been executed all the same
         for (const forward_request& each : done.members)
             answer_one(each, response.error());
         return;
     }
-    heard(done.members.front().unit, done.asked, *response, now);
     const auto* const whole = std::get_if<modbus::read_table>(&done.asked);
     const bool differ = std::any_of(done.members.begin(), done.members.end(),
                                     [&](const forward_request& each) { return each.request != done.asked; });
@@ -153,12 +154,12 @@ void forward_queue::answer_all(errc why)
 }
 
 void forward_queue::heard(station_number unit, const modbus::request& asked, const modbus::response& answer,
-                          time_point now)
+                          time_point asked_at, time_point now)
 {
     if (const auto* const read = std::get_if<modbus::read_table>(&asked))
-        cache_.store(unit, *read, answer, now);
+        cache_.store(unit, *read, answer, asked_at, now);
     else
-        cache_.forget(unit);
+        cache_.forget(unit, now);
 }
 
 void forward_queue::cancel(forward_ticket ticket)

@@ -63,8 +63,9 @@ public:
     void answer_all(errc why);
 
     // Somebody read or wrote this beside the queue, or may have written.
-    void heard(station_number unit, const modbus::request& asked, const modbus::response& answer, time_point now);
-    void forget(station_number unit) { cache_.forget(unit); }
+    void heard(station_number unit, const modbus::request& asked, const modbus::response& answer, time_point asked_at,
+               time_point now);
+    void forget(station_number unit, time_point now) { cache_.forget(unit, now); }
 
     // Its asker has left: it is not taken any more, or, if it was, not repeated.
     void cancel(forward_ticket ticket);
@@ -83,6 +84,8 @@ private:
         std::deque<forward_request> waiting;
     };
     struct group {
+        station_number unit;
+        time_point asked_at{};
         modbus::request asked;
         std::vector<forward_request> members;  // those who want the answer
     };

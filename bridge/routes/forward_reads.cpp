@@ -72,12 +72,15 @@ std::optional<modbus::response> read_cache::find(station_number unit, const modb
 }
 
 void read_cache::store(station_number unit, const modbus::read_table& what, const modbus::response& answer,
-                       time_point now)
+                       time_point asked_at, time_point now)
 {
     const bool has_values =
         std::holds_alternative<modbus::bits_read>(answer) || std::holds_alternative<modbus::registers_read>(answer);
     if (most_age_ == duration{} || !has_values)
         return;
+    for (const station_number written : {unit, station_number{0}})
+        if (const auto found = written_at_.find(written); found != written_at_.end() && asked_at < found->second)
+            return;
     std::deque<entry>& of = entries_[unit];
     std::erase_if(of, [&](const entry& each) { return contains(what, each.what) || now - each.at > most_age_; });
     if (of.size() >= most_entries)
@@ -86,8 +89,9 @@ void read_cache::store(station_number unit, const modbus::read_table& what, cons
 }
 
 // A broadcast reaches all of them.
-void read_cache::forget(station_number unit)
+void read_cache::forget(station_number unit, time_point now)
 {
+    written_at_[unit] = now;
     if (number(unit) == 0)
         forget_all();
     else

@@ -27,8 +27,10 @@ public:
     explicit read_cache(duration most_age = {}) : most_age_(most_age) {}  // 0: remembers nothing
 
     std::optional<modbus::response> find(station_number unit, const modbus::read_table& what, time_point now) const;
-    void store(station_number unit, const modbus::read_table& what, const modbus::response& answer, time_point now);
-    void forget(station_number unit);
+    // What was asked before somebody wrote is not stored: where several questions are under way it may be older.
+    void store(station_number unit, const modbus::read_table& what, const modbus::response& answer, time_point asked_at,
+               time_point now);
+    void forget(station_number unit, time_point now);
     void forget_all() { entries_.clear(); }
 
 private:
@@ -39,6 +41,7 @@ private:
     };
     duration most_age_;
     std::map<station_number, std::deque<entry>> entries_;  // newest last
+    std::map<station_number, time_point> written_at_;      // 0: all of them
 };
 
 }  // namespace plcgw

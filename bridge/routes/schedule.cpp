@@ -43,7 +43,13 @@ std::size_t schedule::add_poll(std::size_t station, duration period)
     return added;
 }
 
-std::size_t schedule::add_write(std::size_t station) { return add_item(station, {}); }
+std::size_t schedule::add_write(std::size_t station)
+{
+    const std::size_t added = add_item(station, {});
+    if (!stations_[station].a_write)
+        stations_[station].a_write = added;
+    return added;
+}
 
 void schedule::start(time_point now)
 {
@@ -70,7 +76,7 @@ time_point schedule::ready_at(std::size_t index) const
     case health::suspect: return is_its_turn ? std::max(own, of.not_before) : time_point::max();
     case health::down: break;
     }
-    const bool is_probe = of.failed_item ? is_its_turn : each.asked || index == of.first_poll;
+    const bool is_probe = of.failed_item ? is_its_turn : each.asked || index == of.probe();
     return is_probe ? std::max({of.health.probe_at(), of.not_before, shares_.credit_from(lane::probe)})
                     : time_point::max();
 }
@@ -132,10 +138,10 @@ schedule::turn schedule::take(lane which, std::size_t index)
 {
     item_state& each = items_[index];
     each.in_flight = true;
-    each.asked = false;
+    const bool is_wanted = std::exchange(each.asked, false) || each.period != duration{};
     if (which == lane::write)
         last_write_ = index;
-    return {index, which != lane::probe && state_of(each.station) == health::healthy, which};
+    return {index, which != lane::probe && state_of(each.station) == health::healthy, which, is_wanted};
 }
 
 std::optional<schedule::turn> schedule::next(time_point now, bool forward_waits)
@@ -181,7 +187,7 @@ bool schedule::is_given_up(std::size_t station, time_point now) const
     const station_state& of = stations_[station];
     if (of.health.state() != health::down)
         return false;
-    return of.failed_item || of.first_poll || forward_at(station) > now;
+    return of.failed_item || of.probe() || forward_at(station) > now;
 }
 
 void schedule::finished(const turn& done, outcome how, duration took, time_point now, unanswered_requests late)
@@ -197,13 +203,22 @@ void schedule::finished(const turn& done, outcome how, duration took, time_point
         late = {1, now - took};
     if (how == outcome::silent && of.health.state() != health::down && !of.failed_item)
         of.failed_item = done.item;
-    heard(of, how, now, late);
+    heard(of, how, took, now, late);
     set_asked(each.station);
-    if (how != outcome::answered && each.period == duration{})
+    if (how != outcome::answered && each.period == duration{} && done.is_wanted)
         each.asked = true;  // a write that nobody took is still wanted
     stretch_ = load_.stretch(now, parallel_);
     if (each.period != duration{} && of.health.state() != health::suspect)  // else it is asked again at once
         advance(each, now);
+}
+
+// Should it have failed, it does not hold up what else is asked of its station.
+void schedule::forget(std::size_t item)
+{
+    items_[item].asked = false;
+    station_state& of = stations_[items_[item].station];
+    if (of.failed_item == item)
+        of.failed_item.reset();
 }
 
 void schedule::pass(const turn& done, time_point now)
@@ -222,11 +237,12 @@ void schedule::forwarded(std::size_t station, outcome how, duration took, time_p
     if (how == outcome::silent && late.count == 0)
         late = {1, now - took};
     if (how != outcome::silent || !of.first_poll) {
-        heard(of, how, now, late);
+        heard(of, how, took, now, late);
     }
     else {
         remember_unanswered(of, late, now);
         of.health.doubted();
+        of.failed_at = now;
         items_[*of.first_poll].due = std::min(items_[*of.first_poll].due, now);
     }
     if (how == outcome::silent)
@@ -234,7 +250,7 @@ void schedule::forwarded(std::size_t station, outcome how, duration took, time_p
     set_asked(station);
 }
 
-void schedule::heard(station_state& of, outcome how, time_point now, unanswered_requests late)
+void schedule::heard(station_state& of, outcome how, duration took, time_point now, unanswered_requests late)
 {
     remember_unanswered(of, late, now);
     if (how == outcome::answered) {
@@ -246,8 +262,9 @@ void schedule::heard(station_state& of, outcome how, time_point now, unanswered_
             of.not_before = now + std::min<duration>(of.owed * (now - of.owed_since), of.longest_delay) + slack;
         of.owed = 0;
     }
-    else if (how == outcome::silent) {
+    else if (how == outcome::silent && now - took >= of.failed_at) {
         of.health.failed(now);
+        of.failed_at = now;
     }
 }
 

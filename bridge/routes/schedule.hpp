@@ -6,6 +6,7 @@
 #include "bridge/routes/lane_shares.hpp"
 #include "bridge/routes/poll_load.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -43,12 +44,13 @@ public:
     // A write that is to be asked, or under way.
     bool is_wanted(std::size_t item) const { return items_[item].asked || items_[item].in_flight; }
 
-    void forget(std::size_t item) { items_[item].asked = false; }  // a write that is not wanted any more
+    void forget(std::size_t item);  // a write that is not wanted any more
 
     struct turn {
-        std::size_t item{};    // not of a forwarded request
-        bool with_retries{};   // a suspect or silent station gets one attempt
-        lane of = lane::poll;  // forward: the forwarded request that waits may go
+        std::size_t item{};     // not of a forwarded request
+        bool with_retries{};    // a suspect or silent station gets one attempt
+        lane of = lane::poll;   // forward: the forwarded request that waits may go
+        bool is_wanted = true;  // false: a write that nobody wants, whose turn is a probe
     };
 
     // forward_waits: a forwarded request could go now, as forward_at() says.
@@ -59,6 +61,10 @@ public:
     time_point forward_at(std::size_t station) const;
     // Until then late answers of the station may come.
     time_point quiet_until(std::size_t station) const { return stations_[station].not_before; }
+    void keep_quiet(std::size_t station, time_point until)
+    {
+        stations_[station].not_before = std::max(stations_[station].not_before, until);
+    }
     // Nobody would answer it: the station is down, and has not come back as far as is known.
     bool is_given_up(std::size_t station, time_point now) const;
 
@@ -93,12 +99,16 @@ private:
         station_health health;
         std::optional<std::size_t> failed_item;  // asked again before anything else while not healthy
         std::optional<std::size_t> first_poll;   // asked when a forwarded request got no answer
+        std::optional<std::size_t> a_write;      // probes a station without polls
         duration longest_delay{5'000'000};
         unsigned owed = 0;          // answers that may still come
         time_point owed_since{};    // when the first request of these went out
         time_point last_silence{};  // when the last one did
         time_point not_before{};    // until then they may come
+        time_point failed_at{};     // a question that was under way then says nothing new by its silence
         bool counted = true;        // its polls take line time
+
+        std::optional<std::size_t> probe() const { return first_poll ? first_poll : a_write; }
     };
 
     std::size_t add_item(std::size_t station, duration period);
@@ -108,7 +118,7 @@ private:
     std::optional<std::size_t> first_poll(time_point now) const;
     std::optional<std::size_t> first_of(lane which, time_point now) const;
     turn take(lane which, std::size_t index);
-    void heard(station_state& of, outcome how, time_point now, unanswered_requests late);
+    void heard(station_state& of, outcome how, duration took, time_point now, unanswered_requests late);
     void remember_unanswered(station_state& of, unanswered_requests late, time_point now);
     void count_time(lane which, duration took, time_point now);
     void set_asked(std::size_t station);

@@ -151,3 +151,17 @@ TEST_CASE("check: what is sent")
     check(R"("name": "tell")", R"("name": "ask")",
           "20 /lines/1/general_purpose/sends/1/name \"ask\" stands twice: give each its own name");
 }
+
+TEST_CASE("check: what comes from routes, messages and blocks has names of its own in DDS")
+{
+    check(R"("name": "pump.values")", R"("name": "weighing.weight")",
+          "16 /lines/1/general_purpose/messages/0/fields/0/name makes \"weighing.weight\", the name of a route in DDS: "
+          "rename one of them");
+    check(R"("name": "pump.values")", R"("name": "raw")",
+          "8 /lines/1/general_purpose/received/0/name makes \"raw\", the name of a route in DDS: rename one of them");
+    const std::string with_block =
+        changed(R"("device": "D500" } ])",
+                R"("device": "D500" } ], "dds": { "blocks": [{ "plc": "main", "device": "D0" }] })", weighbridge);
+    CHECK(said(changed(R"("name": "pump.values")", R"("name": "main.D0")", with_block)) ==
+          "25 /dds/blocks/0/device makes \"main.D0\", the name of a route in DDS: rename one of them");
+}

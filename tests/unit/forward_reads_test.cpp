@@ -234,21 +234,23 @@ TEST_CASE("cache: a value that is young enough needs no line")
 TEST_CASE("cache: a write forgets what its station said, whoever wrote, and whether or not it was answered")
 {
     const modbus::request write = modbus::write_single_register{modbus::address{10}, 7};
-    for (const auto how : {"answered", "silent", "route", "broadcast"}) {
+    for (const auto how : {"answered", "silent", "route", "broadcast", "asker left"}) {
         CAPTURE(how);
         queue_fixture f(1h);
-        f.queue.heard(pump, read(10, 5), values_of(read(10, 5)), t0);
+        f.queue.heard(pump, read(10, 5), values_of(read(10, 5)), t0, t0);
         f.ask(1, read(10, 5));
         f.queue.look(t0, queue_fixture::everything_goes);
         CHECK(f.answers().size() == 1);
 
         const std::string way = how;
         if (way == "route") {
-            f.queue.forget(pump);
+            f.queue.forget(pump, t0);
         }
         else {
             f.ask(1, write, way == "broadcast" ? station_number{0} : pump);
             const auto taken = f.take();
+            if (way == "asker left")
+                f.queue.cancel(taken->ticket);
             if (way == "silent")
                 f.queue.answer(taken->ticket, make_error_code(errc::timed_out), t0);
             else
@@ -262,12 +264,30 @@ TEST_CASE("cache: a write forgets what its station said, whoever wrote, and whet
     }
 }
 
+TEST_CASE("cache: a read that was asked before a write and answered behind it is not remembered")
+{
+    for (const station_number written : {pump, station_number{0}, valve}) {
+        CAPTURE(number(written));
+        queue_fixture f(1h);
+        f.ask(1, read(10, 5));
+        const auto asked_before = f.take();
+        f.now = t0 + 10ms;
+        f.queue.heard(written, modbus::write_single_register{modbus::address{10}, 7},
+                      modbus::response{modbus::written{}}, f.now, f.now);
+        f.queue.answer(asked_before->ticket, values_of(read(10, 5)), f.now);
+        f.answers();
+        f.ask(2, read(10, 5));
+        f.queue.look(f.now, queue_fixture::everything_goes);
+        CHECK(f.answers().size() == (written == valve ? 1 : 0));
+    }
+}
+
 TEST_CASE("cache: without an age nothing is remembered, and exceptions never are")
 {
     queue_fixture f;
-    f.queue.heard(pump, read(10, 5), values_of(read(10, 5)), t0);
+    f.queue.heard(pump, read(10, 5), values_of(read(10, 5)), t0, t0);
     queue_fixture with(1s);
-    with.queue.heard(pump, read(10, 5), modbus::response{modbus::exception_code::illegal_data_address}, t0);
+    with.queue.heard(pump, read(10, 5), modbus::response{modbus::exception_code::illegal_data_address}, t0, t0);
     for (queue_fixture* each : {&f, &with}) {
         each->ask(1, read(10, 5));
         each->queue.look(t0, queue_fixture::everything_goes);

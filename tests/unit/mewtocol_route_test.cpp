@@ -120,6 +120,20 @@ TEST_CASE("mewtocol route: a write to a busy station goes out again, one refused
     CHECK_FALSE(f.line.next(f.now + 1h).has_value());
 }
 
+TEST_CASE("mewtocol route: who writes through hears a refusal as an exception of MODBUS")
+{
+    mewtocol_fixture f;
+    f.line.add_route(f.from("DT5", "D100", 2, direction::write_through), 0, {});
+    f.line.port_opened();
+    f.line.start(t0);
+    f.set("D100", 9);
+    f.line.write_through(f.plc);
+    f.answer(f.next(), error_code::data);
+    const auto outcomes = f.line.take_through();
+    REQUIRE(outcomes.size() == 1);
+    CHECK(outcomes.front().failed == modbus::exception_code::illegal_data_address);
+}
+
 TEST_CASE("mewtocol route: a silent station is result 5, a damaged answer 6, a busy line 4")
 {
     const struct {

@@ -99,6 +99,35 @@ TEST_CASE("write-through: what the station refuses is told, taken back, and not 
     CHECK(f.is_quiet());
 }
 
+TEST_CASE("write-through: what a program wrote while the station was busy goes out again")
+{
+    through_fixture f;
+    f.set("D100", 5);
+    f.line.memory_written();
+    f.memory_changed();
+    f.answer(f.next(), exception_code::server_device_busy);
+    CHECK(f.word("D100") == 5);
+    const time_point refused_at = f.now;
+    const auto again = f.next();
+    CHECK(f.now >= refused_at + 1s);
+    CHECK(std::get<write_multiple_registers>(again.request()).values == std::vector<std::uint16_t>{5, 0});
+}
+
+TEST_CASE("write-through: what is changed back while a write is under way is written, too")
+{
+    through_fixture f;
+    f.device_has(1, 2);
+    f.client_writes(7, 2);
+    const auto q = f.next();
+    f.set("D100", 1);  // by a program
+    f.line.memory_written();
+    f.memory_changed();
+    f.answer(q, written{});
+    CHECK(f.outcomes() == outcome_list{{2, 0}});
+    const auto back = f.next();
+    CHECK(std::get<write_multiple_registers>(back.request()).values == std::vector<std::uint16_t>{1, 2});
+}
+
 TEST_CASE("write-through: a station that does not answer is 0B, at once when it is known to be down")
 {
     through_fixture f;
@@ -149,6 +178,108 @@ TEST_CASE("write-through: who writes while a write is on its way waits for the n
     f.answer(second, written{});
     CHECK(f.outcomes() == outcome_list{{3, 0}, {4, 0}});
     CHECK(f.is_quiet());
+}
+
+namespace {
+
+// A pump with a write-through route, and a read when there are polls.
+struct lost_fixture : fx3u_fixture {
+    explicit lost_fixture(bool with_polls)
+    {
+        line.add_route(route_to("D300", table::holding_registers, 7, 2, direction::write_through), 0, 1s);
+        if (with_polls)
+            line.add_route(route_to("D310", table::holding_registers, 50, 1), 0, 1s);
+        line.port_opened();
+        line.start(t0);
+    }
+    void client_writes(std::uint16_t value)
+    {
+        set("D300", value);
+        line.write_through(plc);
+        for (const plc::change& each : plc.memory().take_changes())
+            line.memory_changed(plc, each);
+        line.memory_written();
+    }
+    client_line::question next()
+    {
+        auto q = line.next(now);
+        for (int i = 0; !q && i < 100; ++i)
+            q = line.next(now = line.wake_at(now));
+        REQUIRE(q.has_value());
+        return *q;
+    }
+    void fail(const client_line::question& q)
+    {
+        now += 500ms;
+        line.failed(q, make_error_code(errc::timed_out), now, {1, now - 200ms});
+        line.take_through();
+    }
+
+    client_line line{"bus 2", {{"pump", unit_id{5}, hasty}}, {.longest_silence = 10s}};
+    time_point now = t0;
+};
+
+bool is_write(const client_line::question& q) { return std::holds_alternative<write_multiple_registers>(q.request()); }
+
+}  // namespace
+
+TEST_CASE("write-through: a write that failed does not stop the polls of its station, nor is it repeated")
+{
+    lost_fixture f(true);
+    f.client_writes(7);
+    client_line::question q = f.next();
+    REQUIRE(is_write(q));
+    f.fail(q);
+    CHECK(f.word("D300") == 0);
+    const time_point failed_at = f.now;
+    for (int i = 0; i < 5; ++i) {
+        q = f.next();
+        REQUIRE_FALSE(is_write(q));
+        if (i == 0)
+            CHECK(f.now >= failed_at + hasty.response_timeout);  // an answer that comes late meets no other question
+        if (i < 2)
+            f.fail(q);
+        else
+            f.line.answered(q, registers_read{{1}}, f.now += 20ms, noon);
+    }
+    CHECK(f.line.health_of(0) == health::healthy);
+}
+
+TEST_CASE("write-through: a station without polls that is down is probed by a read, not by values that nobody wrote")
+{
+    lost_fixture f(false);
+    for (int i = 0; i < 2; ++i) {
+        f.client_writes(7);
+        client_line::question q = f.next();
+        REQUIRE(is_write(q));
+        f.fail(q);
+    }
+    REQUIRE(f.line.health_of(0) == health::down);
+    for (int i = 0; i < 3; ++i) {
+        const client_line::question q = f.next();
+        CHECK(q.request() == modbus::request{read_table{table::holding_registers, address{7}, 2}});
+        if (i < 2)
+            f.fail(q);
+        else
+            f.line.answered(q, registers_read{{55, 66}}, f.now += 20ms, noon);
+    }
+    CHECK(f.line.health_of(0) == health::healthy);
+    CHECK(f.word("D300") == 0);  // what was read is nobody's
+    CHECK_FALSE(f.line.next(f.now += 1min));
+    f.client_writes(8);
+    CHECK(is_write(f.next()));
+}
+
+TEST_CASE("write-through: a station that only others asked while it was silent is found again")
+{
+    lost_fixture f(false);
+    for (int i = 0; i < 2; ++i) {
+        f.line.forward(unit_id{5}, read_table{table::coils, address{0}, 1});
+        f.fail(f.next());
+    }
+    REQUIRE(f.line.health_of(0) == health::down);
+    f.line.answered(f.next(), registers_read{{1, 2}}, f.now += 20ms, noon);
+    CHECK(f.line.health_of(0) == health::healthy);
 }
 
 TEST_SUITE_END();

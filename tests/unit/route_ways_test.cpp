@@ -109,6 +109,40 @@ TEST_CASE("read-write: a read that was asked before the write and answered after
     CHECK(f.word("D100") == 10);
 }
 
+TEST_CASE("read-write: what is changed and changed back while a write is under way is written, too")
+{
+    both_ways f;
+    f.read({1, 2});
+    f.set("D100", 7);
+    CHECK(f.memory_changed());
+    const auto q = f.next();
+    REQUIRE(is_write(q));
+    f.set("D100", 1);
+    f.memory_changed();
+    f.answer(q, written{});
+    f.memory_changed();
+    f.read({7, 2});  // writes leave every other turn to the polls
+    f.expect_write({1, 2});
+    f.read({1, 2});
+    CHECK(f.word("D100") == 1);
+}
+
+TEST_CASE("read-write: a read that is answered while a write is under way changes nothing, whatever the memory holds")
+{
+    both_ways f;
+    f.read({1, 2});
+    f.set("D100", 7);
+    CHECK(f.memory_changed());
+    const auto q = f.next();
+    REQUIRE(is_write(q));
+    f.set("D100", 1);
+    f.memory_changed();
+    const auto read = f.next();  // over MODBUS TCP both are out at a time
+    REQUIRE_FALSE(is_write(read));
+    f.answer(read, registers_read{{7, 2}});
+    CHECK(f.word("D100") == 1);
+}
+
 TEST_CASE("read-write: when the station refuses, its own value comes back")
 {
     both_ways f;

@@ -44,6 +44,26 @@ TEST_CASE("schedule: a suspect station is asked the same question again, once an
     CHECK(wanted->with_retries);
 }
 
+TEST_CASE("schedule: questions that were under way together and are lost together are one failure")
+{
+    schedule s(1);
+    s.set_parallel(4);
+    for (int i = 0; i < 4; ++i)
+        s.add_poll(0, 100ms);
+    s.start(t0);
+    const time_point asked = t0 + 1s;
+    std::vector<schedule::turn> out;
+    while (const auto turn = s.next(asked))
+        out.push_back(*turn);
+    REQUIRE(out.size() == 4);
+    for (const schedule::turn& each : out)
+        s.finished(each, schedule::outcome::silent, 500ms, asked + 500ms);
+    CHECK(s.state_of(0) == health::suspect);
+    time_point now = asked + 510ms;
+    fail(s, now, out.front().item);  // the same question again
+    CHECK(s.state_of(0) == health::down);
+}
+
 TEST_CASE("schedule: one lost answer of a slow poll does not stop the station's fast polls")
 {
     schedule s(1);

@@ -46,12 +46,58 @@ void check_blocks(check_context& c)
     }
 }
 
+// Routes, messages and blocks are instances of one topic: a name that two of them have would be of one instance.
+class sample_names {
+public:
+    explicit sample_names(check_context& c) : c_(c) {}
+
+    void take(const std::string& at, const std::string& name, std::string who)
+    {
+        const auto [found, is_new] = taken_.emplace(name, who);
+        if (!is_new && found->second != who)
+            c_.complain(at, "makes \"" + name + "\", the name of a " + found->second + " in DDS: rename one of them");
+    }
+
+private:
+    check_context& c_;
+    std::map<std::string, std::string> taken_;  // name: what it is of; lists that know their doubles say them
+};
+
+void check_names_of_messages(check_context& c, sample_names& names)
+{
+    for (std::size_t i = 0; i < c.config.lines.size(); ++i) {
+        const general_purpose_config& g = c.config.lines[i].messages;
+        const std::string at = item("lines", i, "general_purpose");
+        for (std::size_t n = 0; n < g.received.size(); ++n)
+            names.take(at + "/received/" + std::to_string(n) + "/name", g.received[n].name, "received message");
+        for (std::size_t n = 0; n < g.messages.size(); ++n)
+            for (std::size_t f = 0; f < g.messages[n].fields.size(); ++f)
+                names.take(at + "/messages/" + std::to_string(n) + "/fields/" + std::to_string(f) + "/name",
+                           g.messages[n].name + "." + g.messages[n].fields[f].name, "field of a message");
+    }
+}
+
+void check_names(check_context& c)
+{
+    sample_names names(c);
+    for (std::size_t i = 0; i < c.config.routes.size(); ++i)
+        names.take(item("routes", i, "name"), c.config.routes[i].name, "route");
+    check_names_of_messages(c, names);
+    for (std::size_t i = 0; i < c.config.dds.blocks.size(); ++i) {
+        const block_config& b = c.config.dds.blocks[i];
+        const plc::model* const model = c.model_of(b.plc);
+        if (const auto head = model == nullptr ? std::nullopt : plc::parse_device(b.device, model->names))
+            names.take("/dds/blocks/" + std::to_string(i) + "/device", block_name(b.plc, *model, *head), "block");
+    }
+}
+
 }  // namespace
 
 void check_dds(check_context& c)
 {
     check_peers(c);
     check_blocks(c);
+    check_names(c);
 }
 
 }  // namespace plcgw::config
