@@ -230,7 +230,7 @@ void client_line::responded(const question& q, duration after)
 {
     const std::size_t station = station_of(q.unit);
     if (!stations_[station].name.empty())
-        polls_.responded(station, q.request(), after);
+        polls_.responded(station, q.asked, after);
 }
 
 void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)

@@ -103,7 +103,7 @@ public:
                   unanswered_requests late = {}, std::optional<duration> response_time = {});
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
     void interrupted(const question& q);  // the port went away: the station is not to blame
-    // Of a MODBUS question: from the end of the request to the end of its answer, measured.
+    // From the end of a request to the end of its answer, measured on a serial line.
     void responded(const question& q, duration after);
 
     // What the stations refused to read in one request, numbered as they were given.
