@@ -64,19 +64,20 @@ class ScanTest(InteropTest):
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
         return done.stdout
 
-    def start_plant(self, **routed):
+    def start_plant(self, period_ms, routes=1):
         """Unit 1 is a station of the gateway, 3 and 5 are not yet."""
         self.start_bus(ports=3)
         devices = [self.start_device(k + 1, unit) for k, unit in enumerate((1, 3, 5))]
         gateway = self.start_gateway(self.configuration(
             dds={"domain": 90 + os.getpid() % 10},
-            lines=[serial_line(self.folder / "line", baud_rate=115200)], stations=[station("pump", 1)],
-            routes=[route("pump.values", "holding", 0, "D100", 10, **routed)]))
-        wait_for("the station is polled", lambda: devices[0].answers() > 10)
+            lines=[serial_line(self.folder / "line", baud_rate=115200)], stations=[station("pump", 1, merge="off")],
+            routes=[route(f"pump.{k}", "holding", 10 * k, f"D{100 + 10 * k}", 10, period_ms=period_ms)
+                    for k in range(routes)]))
+        wait_for("the station is polled", lambda: devices[0].answers() > 0)
         return gateway, devices
 
     def test_beside_a_line_that_is_full(self):
-        _, devices = self.start_plant(period_ms=1)
+        _, devices = self.start_plant(period_ms=10, routes=20)
         stub = self.folder / "stub.json"
 
         def pace(seconds):
@@ -147,9 +148,9 @@ class ScanTest(InteropTest):
         self.start_device(1, 2)
         self.start_device(2, 4)
         stub = self.folder / "stub.json"
-        port = ("--device", self.folder / "line", "--timeout-ms", 500)
+        port = ("--device", self.folder / "line")
         here = self.stations(*port, "--bauds", "19200", "--formats", "8N1", "--protocols", "modbus-rtu", "--units",
-                             "1-5", "--output", stub)
+                             "1-5", "--timeout-ms", 500, "--output", stub)
         self.assertEqual(set(here), {2, 4})
         self.assertIn("2 stations, 8 routes", self.check(stub))
         text = stub.read_text()
