@@ -5,6 +5,7 @@
 #include "daemon/control_path.hpp"
 #include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
+#include "daemon/scan/scan_command.hpp"
 #include "daemon/service_notify.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -224,6 +225,8 @@ void gateway::start_control()
 
 nlohmann::json gateway::command(const nlohmann::json& what)
 {
+    if (what.value("command", "") == "scan")
+        return scan_command(lines_, what, now());
     nlohmann::json reply = control_command(plcs_, links_.get(), what, now());
     settle_memory();
     return reply;

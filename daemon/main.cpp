@@ -7,6 +7,7 @@
 #include "daemon/plc_command.hpp"
 #include "daemon/plc_link_command.hpp"
 #include "daemon/run.hpp"
+#include "daemon/scan_cli.hpp"
 #include "daemon/version.hpp"
 #include "daemon/watch.hpp"
 
@@ -146,6 +147,10 @@ int run_command(int argc, char** argv)
     CLI::App* const plc_link = app.add_subcommand("plc-link", "Show the PLC links of the running gateway");
     plc_link->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
 
+    plcgw::scan_options scanned;
+    CLI::App* const scan = app.add_subcommand("scan", "Look for stations on a line");
+    plcgw::add_scan(*scan, scanned);
+
     const CLI::App* const schema = app.add_subcommand("schema", "Print the JSON Schema of the configuration");
 
     try {
@@ -166,6 +171,8 @@ int run_command(int argc, char** argv)
         return plcgw::plc_client(socket, plc_action, plc_name);
     if (*plc_link)
         return plcgw::plc_link_client(socket);
+    if (*scan)
+        return plcgw::scan_stations(scanned);
     if (*map)
         return plcgw::show_map(mapped);
     if (*link_time)

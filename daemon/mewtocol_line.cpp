@@ -67,15 +67,19 @@ asio::awaitable<error_code> mewtocol_line::ask(Client client, std::vector<mewtoc
         co_return ec;
     const unanswered_requests late = take_leave(transaction);
     const auto& outcome = transaction.outcome();
+    const duration after = transaction.response_time();
     const bool own = std::holds_alternative<mewtocol::block>(question.asked);
     if (!own && outcome.has_error() && outcome.error() == errc::not_expressible && client.asks_one())
         routes_.answered(question, modbus::response{modbus::exception_code::illegal_data_address}, now(), wall_now());
     else if (!outcome)
         routes_.failed(question, outcome.error(), now(), late);
-    else if (own)
-        routes_.answered(question, outcome->back(), now(), wall_now(), late);
+    else if (own) {
+        if (!refusal_in(outcome->back()))
+            routes_.responded(question, after);
+        routes_.answered(question, outcome->back(), now(), wall_now(), late, after);
+    }
     else
-        routes_.answered(question, modbus_answer(question.request(), *outcome), now(), wall_now(), late);
+        routes_.answered(question, modbus_answer(question.request(), *outcome), now(), wall_now(), late, after);
     co_return error_code{};
 }
 

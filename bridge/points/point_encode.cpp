@@ -1,5 +1,6 @@
 #include "bridge/points/point.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -67,11 +68,63 @@ std::vector<std::uint16_t> with_bits(const point_form& f, std::uint64_t bits)
     return into;
 }
 
+std::string limits_text(const point_limits& l)
+{
+    if (l.least && l.most)
+        return printed(*l.least) + " to " + printed(*l.most);
+    return l.least ? printed(*l.least) + " and more" : "at most " + printed(*l.most);
+}
+
+double value_of(const point_form& f, const magnitude& m)
+{
+    return (m.negative ? -1.0 : 1.0) * static_cast<double>(m.number) * f.scale + f.offset;
+}
+
+// A multiple of 0.1 that misses its limit by rounding of the arithmetic is not beyond it.
+bool is_beyond(const point_form& f, double by, double limit)
+{
+    return by > std::max(std::fabs(f.scale) * 1e-6, std::fabs(limit) * 1e-12);
+}
+
+bool is_above(const point_form& f, double made)
+{
+    return f.limits.most && is_beyond(f, made - *f.limits.most, *f.limits.most);
+}
+bool is_below(const point_form& f, double made)
+{
+    return f.limits.least && is_beyond(f, *f.limits.least - made, *f.limits.least);
+}
+
+// One number nearer to where the values are larger, or smaller.
+magnitude stepped(const point_form& f, const magnitude& from, bool larger_value)
+{
+    const bool up = larger_value == (f.scale > 0);
+    if (from.number == 0)
+        return {!up, 1};
+    const bool away_from_zero = up != from.negative;
+    return {from.negative && from.number != 1, away_from_zero ? from.number + 1 : from.number - 1};
+}
+
+// A value inside the limits, or at one of them, whose nearest number is outside: then the next one inside.
+std::optional<magnitude> rounded_inside(const point_form& f, double value)
+{
+    const auto nearest = rounded((value - f.offset) / f.scale);
+    if (!nearest)
+        return nearest;
+    const double made = value_of(f, *nearest);
+    if (is_above(f, made))
+        return stepped(f, *nearest, false);
+    return is_below(f, made) ? stepped(f, *nearest, true) : nearest;
+}
+
 encoded encode_whole(const point_form& f, const point_value& value)
 {
     const bool plain = f.scale == 1 && f.offset == 0;
-    const auto number = plain && value.kind != point_kind::real ? std::optional(exact(value.integer))
-                                                                : rounded((value.real - f.offset) / f.scale);
+    const auto number =
+        plain && value.kind != point_kind::real ? std::optional(exact(value.integer)) : rounded_inside(f, value.real);
+    if (number && (is_above(f, value_of(f, *number)) || is_below(f, value_of(f, *number))))
+        return refused(point_fault::outside,
+                       "no number that the registers can hold is inside the limits, " + limits_text(f.limits));
     const whole_range range = range_of(f.type);
     if (!number || number->number > (number->negative ? range.least : range.most))
         return refused(point_fault::out_of_range,
@@ -102,13 +155,6 @@ encoded encode_text(const point_form& f, const point_value& value)
     std::vector<std::uint16_t> into(registers_of(f.type, f.characters));
     put_text({reinterpret_cast<const std::uint8_t*>(value.text.data()), value.text.size()}, f.order, into);
     return into;
-}
-
-std::string limits_text(const point_limits& l)
-{
-    if (l.least && l.most)
-        return printed(*l.least) + " to " + printed(*l.most);
-    return l.least ? printed(*l.least) + " and more" : "at most " + printed(*l.most);
 }
 
 }  // namespace

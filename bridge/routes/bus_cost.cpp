@@ -78,6 +78,23 @@ duration com7_exchange(const bus_timing& bus, const mewtocol::block& asked)
     return sum;
 }
 
+// Of a question that is one exchange. 0: nobody knows.
+std::size_t characters_of_answer(const bus_timing& bus, const station_question& asked)
+{
+    if (const auto* const request = std::get_if<modbus::request>(&asked)) {
+        const auto sizes = sizes_of(modbus::function_of(*request), items_of(*request), 1);
+        const auto mode = bus.protocol == bus_protocol::modbus_ascii ? plc::framing::ascii : plc::framing::rtu;
+        return sizes ? adu_size(sizes->response, mode) : 0;
+    }
+    const auto& block = std::get<mewtocol::block>(asked);
+    if (bus.protocol == bus_protocol::mewtocol7_com) {
+        const auto plan = mewtocol::plan(block, bus.dialect);
+        return plan && !plan->empty() ? mewtocol7::frame_overhead + response_size(plan->front()) : 0;
+    }
+    const auto plan = mewtocol::plan(block, bus.headers);
+    return plan && !plan->commands.empty() ? mewtocol::frame_overhead + response_size(plan->commands.front()) : 0;
+}
+
 }  // namespace
 
 duration exchange_time(const bus_timing& bus, const station_question& asked)
@@ -88,11 +105,9 @@ duration exchange_time(const bus_timing& bus, const station_question& asked)
     return bus.protocol == bus_protocol::mewtocol7_com ? com7_exchange(bus, block) : com_exchange(bus, block);
 }
 
-duration turnaround_in(const bus_timing& bus, const modbus::request& asked, duration until_answered)
+duration turnaround_in(const bus_timing& bus, const station_question& asked, duration until_answered)
 {
-    const auto sizes = sizes_of(modbus::function_of(asked), items_of(asked), 1);
-    const auto mode = bus.protocol == bus_protocol::modbus_ascii ? plc::framing::ascii : plc::framing::rtu;
-    const duration response = sizes ? character_time(bus.format, adu_size(sizes->response, mode)) : duration{};
+    const duration response = character_time(bus.format, characters_of_answer(bus, asked));
     return std::max(duration{}, until_answered - response);
 }
 

@@ -25,8 +25,9 @@ struct bus_timing {
 // V1.02 section 2.5.1.1; on a network a byte counts as 1 us. 0 for what cannot be asked.
 duration exchange_time(const bus_timing& bus, const station_question& asked);
 
-// What of the time from the end of a request to the end of its answer the device took. MODBUS on serial lines.
-duration turnaround_in(const bus_timing& bus, const modbus::request& asked, duration until_answered);
+// What of the time from the end of a request to the end of its answer the device took, on serial lines. Of a question
+// that is_one_exchange().
+duration turnaround_in(const bus_timing& bus, const station_question& asked, duration until_answered);
 
 // One request, one answer: what is read so belongs to one moment. False for what cannot be asked.
 bool is_one_exchange(const bus_timing& bus, const station_question& asked);

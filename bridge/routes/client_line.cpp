@@ -59,6 +59,7 @@ std::optional<client_line::question> client_line::next(time_point now)
     const auto verdict = [&](const forward_request& each) { return verdict_of(each, now); };
     forwards_wake_ = forwards_.empty() ? time_point::max() : forwards_.look(now, verdict);
     forwards_came_ = false;
+    offer_scan(now);
     auto turn = schedule_.next(now, forwards_wake_ <= now);
     while (turn && is_idle(*turn)) {
         schedule_.pass(*turn, now);
@@ -66,6 +67,8 @@ std::optional<client_line::question> client_line::next(time_point now)
     }
     if (!turn)
         return std::nullopt;
+    if (turn->of == lane::scan)
+        return next_scan(now);
     std::optional<question> chosen;
     if (turn->of == lane::forward)
         chosen = next_forward(now);
@@ -83,7 +86,7 @@ std::optional<client_line::question> client_line::next(time_point now)
 // A poll that is not needed now lets its turn pass, unless the station's health waits for it.
 bool client_line::is_idle(const schedule::turn& turn) const
 {
-    return turn.of != lane::forward && !polls_.is_needed(turn.item) &&
+    return turn.of != lane::forward && turn.of != lane::scan && !polls_.is_needed(turn.item) &&
            schedule_.state_of(polls_.at(turn.item).station) == health::healthy;
 }
 
@@ -155,6 +158,11 @@ bool client_line::attempt_failed(const question& q, const modbus::answer_fault& 
 void client_line::answered(const question& q, const station_answer& answer, time_point now, wall_time wall,
                            unanswered_requests late, std::optional<duration> response_time)
 {
+    if (std::holds_alternative<scan_ticket>(q.origin)) {
+        if (station_scan* const scan = scan_of(q, now))
+            scan->answered(answer);
+        return;
+    }
     learn_delimiter(q, answer);
     const std::size_t station = station_of(q.unit);
     const health before = schedule_.state_of(station);
@@ -233,13 +241,20 @@ void client_line::served(const question& q, const station_answer& answer, time_p
 
 void client_line::responded(const question& q, duration after)
 {
+    if (std::holds_alternative<scan_ticket>(q.origin))
+        return;
     const std::size_t station = station_of(q.unit);
     if (!stations_[station].name.empty())
-        polls_.responded(station, q.request(), after);
+        polls_.responded(station, q.asked, after);
 }
 
 void client_line::failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late)
 {
+    if (std::holds_alternative<scan_ticket>(q.origin)) {
+        if (station_scan* const scan = scan_of(q, now))
+            scan->failed(why);
+        return;
+    }
     doubt_delimiter(q.unit);
     const std::size_t station = station_of(q.unit);
     const health before = schedule_.state_of(station);
@@ -274,8 +289,13 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
 
 void client_line::interrupted(const question& q)
 {
-    if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin))
+    if (std::holds_alternative<scan_ticket>(q.origin)) {
+        if (station_scan* const scan = scan_of(q, q.asked_at))
+            scan->interrupted();
+    }
+    else if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
         forwards_.answer(*forwarded, make_error_code(errc::port_absent), q.asked_at);
+    }
     else {
         const auto& turn = std::get<schedule::turn>(q.origin);
         schedule_.finished(turn, schedule::outcome::not_asked, {}, q.asked_at);

@@ -6,6 +6,7 @@
 #include "bridge/routes/line_polls.hpp"
 #include "bridge/routes/response_times.hpp"
 #include "bridge/routes/route.hpp"
+#include "bridge/scan/station_scan.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
 #include <algorithm>
@@ -69,8 +70,20 @@ public:
         forwards_came_ = forwards_came_ && !forwards_.empty();
     }
 
+    // A search for stations beside all this: client_line_scan.cpp. Units of the line's own stations are left out. It
+    // ends when nobody has looked at it for a while; what it found stays until the next one.
+    void begin_scan(scan_language language, std::vector<station_number> units, std::optional<duration> timeout,
+                    time_point now);
+    const station_scan* look_at_scan(time_point now);  // null: there was none
+    void end_scan() { scan_goes_ = false; }
+    bool is_scanning() const { return scan_goes_; }
+    duration scan_timeout() const;  // if none is given: from what the line has taught
+    bool is_port_open() const { return port_open_; }
+
+    enum class scan_ticket : std::uint64_t {};  // which scan asks
+
     struct question {
-        std::variant<schedule::turn, forward_ticket> origin;
+        std::variant<schedule::turn, forward_ticket, scan_ticket> origin;
         station_number unit;
         station_question asked;
         modbus::serial_options timing;
@@ -103,7 +116,7 @@ public:
                   unanswered_requests late = {}, std::optional<duration> response_time = {});
     void failed(const question& q, boost::system::error_code why, time_point now, unanswered_requests late = {});
     void interrupted(const question& q);  // the port went away: the station is not to blame
-    // Of a MODBUS question: from the end of the request to the end of its answer, measured.
+    // From the end of a request to the end of its answer, measured on a serial line.
     void responded(const question& q, duration after);
 
     // What the stations refused to read in one request, numbered as they were given.
@@ -143,6 +156,8 @@ public:
     std::size_t station_at(std::size_t number) const { return routes_[number].station; }
     bool is_half(std::size_t number) const { return routes_[number].half; }  // the writing half of a route
     bool is_up(std::size_t number) const;
+    std::size_t stations() const { return stations_.size(); }  // without a name: asked by others only
+    const station& station_numbered(std::size_t station) const { return stations_[station]; }
     health health_of(std::size_t station) const { return schedule_.state_of(station); }
 
     // The worst quality and the oldest source among the read routes that fill these devices; good when there are none.
@@ -192,6 +207,9 @@ private:
     void served(const question& q, const station_answer& answer, time_point now, wall_time wall);
     void refused(const question& q, const station_refusal& why, time_point now, wall_time wall);
     bool is_idle(const schedule::turn& turn) const;
+    void offer_scan(time_point now);
+    std::optional<question> next_scan(time_point now);
+    station_scan* scan_of(const question& q, time_point now);
     std::optional<question> next_forward(time_point now);
     forward_queue::verdict verdict_of(const forward_request& r, time_point now);
     std::size_t station_of(station_number unit);  // one that has no route is made known
@@ -226,6 +244,11 @@ private:
     bool port_open_ = false;
     bool overloaded_ = false;
     time_point load_looked_at_{};
+    std::optional<station_scan> scan_;
+    scan_ticket scan_number_{};
+    bool scan_goes_ = false;
+    time_point scan_looked_at_{};
+    modbus::serial_options scan_timing_{};
     // ASCII: stations that were told to end their frames with another character. They forget it when their power fails,
     // so that one that does not answer is asked in both ways by turns.
     struct told_delimiter {

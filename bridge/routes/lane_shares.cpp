@@ -7,8 +7,9 @@ namespace plcgw {
 namespace {
 
 // Writes and forwarded requests leave a fifth of a full line to the polls. Polls leave to the probes what these may
-// take, and probes never take more, also on a line that has nothing else to do.
-constexpr std::array<double, lane_count> shares{0.5, 0.3, 0.95, 0.05};
+// take, and probes never take more, also on a line that has nothing else to do. A scan takes what the probes leave of
+// that.
+constexpr std::array<double, lane_count> shares{0.5, 0.3, 0.95, 0.05, 0.05};
 
 // More is not remembered: a lane that had an idle line for itself is not shut out for longer when others come.
 constexpr double deepest_debt = -500'000;
@@ -31,6 +32,8 @@ time_point lane_shares::credit_from(lane of) const
 
 void lane_shares::spent(lane of, duration took, time_point now)
 {
+    if (of == lane::probe)
+        spent(lane::scan, took, now);
     account& a = accounts_[index_of(of)];
     const time_point began = std::max(a.since, now - took);
     const double after = credit(of, began) - static_cast<double>(took.count());

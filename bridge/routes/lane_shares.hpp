@@ -10,9 +10,9 @@
 
 namespace plcgw {
 
-enum class lane : std::uint8_t { write, forward, poll, probe };  // in the order in which they go
+enum class lane : std::uint8_t { write, forward, poll, probe, scan };  // in the order in which they go
 
-inline constexpr std::size_t lane_count = 4;
+inline constexpr std::size_t lane_count = 5;
 
 // Each lane has an account in microseconds of line time: it grows by the lane's share of the time that passes, never
 // above zero, and falls by what the lane's transactions take. A lane below zero has had its share.

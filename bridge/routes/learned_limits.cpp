@@ -137,8 +137,7 @@ table_limits::lesson table_limits::refused(const read_block& request, const std:
     if (std::find(routes.begin(), routes.end(), request) != routes.end())
         return learn(made);  // a longer route that others lie in
     made.seam = seam_of(request, routes);
-    const bool has_gap = made.seam && made.seam->first != made.seam->end;
-    if (length(request) > longest_accepted_ && (for_its_length || !has_gap)) {
+    if (length(request) > longest_accepted_ && (for_its_length || is_second_of_its_length(made))) {
         made.what = kind::length;
         made.at = {longest_accepted_, length(request)};
     }
@@ -148,10 +147,30 @@ table_limits::lesson table_limits::refused(const read_block& request, const std:
     return learn(made);
 }
 
+// Refused for its place, though there is no gap in it. The first time a boundary is to blame; when another request
+// elsewhere was cut there that was longer than any answer, too, it is the length. A boundary that is none is asked
+// across again after a day; a length that is none would shorten the requests of the whole table for as long.
+bool table_limits::is_second_of_its_length(const learned_limit& refused) const
+{
+    const bool has_gap = refused.seam && refused.seam->first != refused.seam->end;
+    return !has_gap && std::any_of(limits_.begin(), limits_.end(), [&](const learned_limit& each) {
+        return is_suspected_length(each) && !covers(each.request, refused.request);
+    });
+}
+
+bool table_limits::is_suspected_length(const learned_limit& limit) const
+{
+    return limit.what == kind::length || (limit.what == kind::boundary && length(limit.request) > longest_accepted_);
+}
+
 table_limits::lesson table_limits::learn(learned_limit limit)
 {
+    if (limit.what == kind::length)  // which explains these, too
+        for (const learned_limit& each : limits_)
+            if (is_suspected_length(each))
+                limit.at.end = std::min(limit.at.end, length(each.request));
     std::erase_if(limits_, [&](const learned_limit& each) {
-        return covers(each.request, limit.request) || (limit.what == kind::length && each.what == kind::length);
+        return covers(each.request, limit.request) || (limit.what == kind::length && is_suspected_length(each));
     });
     limits_.push_back(limit);
     return {false, std::move(limit)};

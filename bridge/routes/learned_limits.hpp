@@ -64,6 +64,8 @@ public:
 private:
     bool contradict_length(const read_block& accepted);
     bool reinstate(const read_block& request, wall_time now);
+    bool is_second_of_its_length(const learned_limit& refused) const;
+    bool is_suspected_length(const learned_limit& limit) const;
     lesson learn(learned_limit limit);
 
     std::vector<learned_limit> limits_;

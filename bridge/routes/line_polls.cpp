@@ -121,8 +121,10 @@ void line_polls::accepted(const item& poll, wall_time wall, time_point now, sche
     replan(poll.station, now, polls);
 }
 
-void line_polls::responded(std::size_t station, const modbus::request& asked, duration after)
+void line_polls::responded(std::size_t station, const station_question& asked, duration after)
 {
+    if (!is_one_exchange(stations_[station].how.bus, asked))
+        return;
     const duration measured = turnaround_in(stations_[station].how.bus, asked, after);
     std::optional<duration>& kept = stations_[station].limits.turnaround;
     kept = kept ? *kept + (measured - *kept) / smoothing : measured;

@@ -40,8 +40,8 @@ public:
     };
     lesson refused(const item& poll, const station_refusal& why, wall_time wall, time_point now, schedule& polls);
     void accepted(const item& poll, wall_time wall, time_point now, schedule& polls);
-    // A MODBUS station on a serial line answered; after: from the end of the request to the end of the answer.
-    void responded(std::size_t station, const modbus::request& asked, duration after);
+    // A station on a serial line answered; after: from the end of the request to the end of the answer.
+    void responded(std::size_t station, const station_question& asked, duration after);
 
     const station_limits& limits_of(std::size_t station) const { return stations_[station].limits; }
     bool take_learned() { return std::exchange(learned_, false); }  // since the last call: worth keeping

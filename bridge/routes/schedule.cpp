@@ -10,7 +10,7 @@ constexpr duration idle_check = std::chrono::seconds(1);
 constexpr duration first_round = std::chrono::seconds(1);   // in which every poll is read for the first time
 constexpr duration slack = std::chrono::milliseconds(100);  // time on the wire and jitter of a late answer
 
-constexpr lane order[lane_count] = {lane::write, lane::forward, lane::poll, lane::probe};
+constexpr lane order[] = {lane::write, lane::forward, lane::poll, lane::probe};  // and then a scan
 
 }  // namespace
 
@@ -129,9 +129,26 @@ std::optional<std::size_t> schedule::first_of(lane which, time_point now) const
     case lane::write: return first_write(now);
     case lane::poll: return first_poll(now);
     case lane::probe: return first_probe(now);
-    case lane::forward: break;
+    case lane::forward:
+    case lane::scan: break;
     }
     return std::nullopt;
+}
+
+time_point schedule::first_ready() const
+{
+    time_point earliest = time_point::max();
+    for (std::size_t i = 0; i < items_.size(); ++i)
+        earliest = std::min(earliest, ready_at(i));
+    return earliest;
+}
+
+bool schedule::may_scan(time_point now, bool others_wait) const
+{
+    if (!scan_)
+        return false;
+    const bool is_in_gap = !others_wait && now + *scan_ <= first_ready();
+    return is_in_gap || shares_.has_credit(lane::scan, now);
 }
 
 schedule::turn schedule::take(lane which, std::size_t index)
@@ -147,6 +164,7 @@ schedule::turn schedule::take(lane which, std::size_t index)
 std::optional<schedule::turn> schedule::next(time_point now, bool forward_waits)
 {
     std::optional<turn> chosen;  // of the lanes that had their share, the one that will have credit first
+    bool is_entitled = false;
     for (const lane which : order) {
         const bool in_share = shares_.has_credit(which, now);
         if (chosen && !in_share && shares_.credit_from(which) >= shares_.credit_from(chosen->of))
@@ -155,9 +173,12 @@ std::optional<schedule::turn> schedule::next(time_point now, bool forward_waits)
         if (!item && !(which == lane::forward && forward_waits))
             continue;
         chosen = turn{item.value_or(0), true, which};
+        is_entitled = in_share;
         if (in_share)
             break;
     }
+    if (!is_entitled && may_scan(now, chosen.has_value()))
+        return turn{0, false, lane::scan};
     if (chosen && chosen->of != lane::forward)
         return take(chosen->of, chosen->item);
     return chosen;
@@ -165,10 +186,8 @@ std::optional<schedule::turn> schedule::next(time_point now, bool forward_waits)
 
 time_point schedule::wake_at(time_point now) const
 {
-    time_point earliest = now + idle_check;
-    for (std::size_t i = 0; i < items_.size(); ++i)
-        earliest = std::min(earliest, ready_at(i));
-    return earliest;
+    const time_point earliest = std::min(now + idle_check, first_ready());
+    return scan_ ? std::min(earliest, std::max(now, shares_.credit_from(lane::scan))) : earliest;
 }
 
 time_point schedule::forward_at(std::size_t station) const

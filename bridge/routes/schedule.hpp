@@ -1,5 +1,5 @@
 // What a line does next: earliest deadline first within the polls; writes before forwarded requests before polls before
-// probes, each within its share of the line. Knows no protocol: an item is a number.
+// probes before a scan, each within its share of the line. Knows no protocol: an item is a number.
 #pragma once
 
 #include "bridge/routes/health.hpp"
@@ -47,9 +47,9 @@ public:
     void forget(std::size_t item);  // a write that is not wanted any more
 
     struct turn {
-        std::size_t item{};     // not of a forwarded request
+        std::size_t item{};     // of writes, polls and probes
         bool with_retries{};    // a suspect or silent station gets one attempt
-        lane of = lane::poll;   // forward: the forwarded request that waits may go
+        lane of = lane::poll;   // forward, scan: the forwarded request or the scan's question that waits may go
         bool is_wanted = true;  // false: a write that nobody wants, whose turn is a probe
     };
 
@@ -79,6 +79,11 @@ public:
     // The same of a forwarded request. pause: so long its answer may come late, if it was silent.
     void forwarded(std::size_t station, outcome how, duration took, time_point now, unanswered_requests late,
                    duration pause);
+
+    // A scan's question waits, and takes so long at most; nothing: none waits. It goes when there is time for it until
+    // something else is due, or within its share.
+    void set_scan(std::optional<duration> longest) { scan_ = longest; }
+    void scanned(duration took, time_point now) { shares_.spent(lane::scan, took / parallel_, now); }
 
     health state_of(std::size_t station) const { return stations_[station].health.state(); }
     time_point probe_at(std::size_t station) const { return stations_[station].health.probe_at(); }
@@ -117,6 +122,8 @@ private:
     std::optional<std::size_t> first_write(time_point now) const;
     std::optional<std::size_t> first_poll(time_point now) const;
     std::optional<std::size_t> first_of(lane which, time_point now) const;
+    time_point first_ready() const;
+    bool may_scan(time_point now, bool others_wait) const;
     turn take(lane which, std::size_t index);
     void heard(station_state& of, outcome how, duration took, time_point now, unanswered_requests late);
     void remember_unanswered(station_state& of, unanswered_requests late, time_point now);
@@ -132,6 +139,7 @@ private:
     double stretch_ = 1;
     unsigned parallel_ = 1;
     std::size_t last_write_ = 0;  // writes take turns
+    std::optional<duration> scan_;
 };
 
 }  // namespace plcgw

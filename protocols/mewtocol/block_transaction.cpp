@@ -1,5 +1,7 @@
 #include "protocols/mewtocol/block_transaction.hpp"
 
+#include <algorithm>
+
 namespace plcgw::mewtocol {
 namespace {
 
@@ -67,6 +69,7 @@ bool block_transaction<Client>::finish(time_point now)
         outcome_ = asked.outcome().error();
         return false;
     }
+    response_time_ = std::max(response_time_, asked.response_time());
     response answer = Client::as_response(*asked.outcome());
     const bool refused = std::holds_alternative<error_code>(answer);
     parts_.push_back(std::move(answer));

@@ -33,6 +33,7 @@ public:
     unsigned unanswered() const { return unanswered_; }
     time_point unanswered_since() const { return unanswered_since_; }
     const std::vector<errc>& faults() const { return faults_; }  // of each attempt that failed
+    duration response_time() const { return response_time_; }    // the longest of the commands that were answered
     bool echo_seen() const { return echo_seen_; }
     time_point line_free_from() const { return line_free_from_; }
 
@@ -55,6 +56,7 @@ private:
     std::vector<errc> faults_;
     unsigned unanswered_ = 0;
     time_point unanswered_since_{};
+    duration response_time_{};
     bool echo_seen_ = false;
     result<std::vector<response>> outcome_ = make_error_code(errc::not_expressible);
 };

@@ -20,6 +20,47 @@ std::string route(const std::string& keys, const std::string& protocol = "mewtoc
 
 }  // namespace
 
+TEST_CASE("check: points of MEWTOCOL routes of several commands")
+{
+    const auto with_point = [](const std::string& keys, const std::string& point, const char* line = "") {
+        return R"({"plcs": [{"name": "a"}], "lines": [{"name": "l", "device": "d", "protocol": "mewtocol-com")" +
+               std::string(line) + R"(}],
+"stations": [{"name": "s", "line": "l", "unit": 7}],
+"routes": [{"name": "r", "station": "s", "plc": "a", "device": "D0", "source": "DT0", )" +
+               keys + R"(}],
+"points": [
+{"name": "p", "plc": "a", )" +
+               point + "}]}";
+    };
+    const std::string normal = R"(, "mewtocol": {"expansion": false})";
+    const char* const torn =
+        "5 /points/0/device lies on both sides of the place where route \"r\" is cut into commands, ";
+    const char* const cure = " at different times, and the value could be torn. Split the route so that a route begins "
+                             "with the point";
+    const struct {
+        std::string text;
+        std::string expected;
+    } rows[] = {
+        {with_point(R"("count": 509)", R"("device": "D507", "type": "int32")"), ""},
+        {with_point(R"("count": 600)", R"("device": "D506", "type": "int32")"), ""},
+        {with_point(R"("count": 600)", R"("device": "D508", "type": "int32")"), ""},
+        {with_point(R"("count": 600)", R"("device": "D508", "type": "int16")"), ""},
+        {with_point(R"("count": 600)", R"("device": "D507", "type": "int32")"),
+         torn + std::string("508 words behind its first: its registers are read") + cure},
+        {with_point(R"("count": 60)", R"("device": "D25", "type": "float")", normal.c_str()),
+         torn + std::string("26 words behind its first: its registers are read") + cure},
+        {with_point(R"("count": 60)", R"("device": "D25", "type": "float")"), ""},
+        {with_point(R"("count": 30, "direction": "write")", R"("device": "D23", "type": "float", "writable": true)",
+                    normal.c_str()),
+         torn + std::string("24 words behind its first: its registers are written") + cure},
+        {with_point(R"("count": 30, "direction": "write")", R"("device": "D23", "type": "float")", normal.c_str()), ""},
+    };
+    for (const auto& row : rows) {
+        CAPTURE(row.text);
+        CHECK(said(row.text) == row.expected);
+    }
+}
+
 TEST_CASE("check: sources of MEWTOCOL routes")
 {
     const struct {

@@ -1,5 +1,6 @@
 """A MEWTOCOL-COM station on a line: routes, DDS samples and MODBUS TCP requests, and everything that goes wrong."""
 
+import json
 import time
 
 from mewtocol_station import MewtocolStation
@@ -106,6 +107,24 @@ class MewtocolClientTest(InteropTest):
         self.fp7.memory["D", 100] = 9
         self.fp7.misbehave = None
         self.watch.expect("fp.words", quality="good", values=[9, 101])
+
+    def test_the_timeout_is_learned_and_the_turnaround_measured(self):
+        self.start(source("fp.words", "DT100", "D100", 2),
+                   line={"response_timeout_ms": 5000, "learn_timeout": True, "least_timeout_ms": 50})
+        wait_for("enough answers", lambda: len(self.fp7.commands) > 12)
+        unanswered = []
+
+        def silent(_):
+            unanswered.append(time.monotonic())
+            return []
+        self.fp7.misbehave = silent
+        wait_for("the question and its repetition", lambda: len(unanswered) >= 2)
+        self.assertLess(unanswered[1] - unanswered[0], 2.5)  # not the 5 s that are allowed
+        self.gateway.stop()
+        learned = json.loads((self.folder / "state" / "learned.json").read_text())
+        turnaround = [each["turnaround_us"] for each in learned["stations"] if each["unit"] == 7]
+        self.assertEqual(len(turnaround), 1)
+        self.assertLess(turnaround[0], 1_000_000)
 
     def test_damage_is_no_value(self):
         self.start(source("fp.words", "DT100", "D100", 2))

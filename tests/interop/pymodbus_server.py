@@ -1,6 +1,6 @@
-"""pymodbus as a server: unit 1 with 100 items in each table. Prints "ready", and each item that is written:
+"""pymodbus as a server: unit 1, or others, with 100 items in each table. Prints "ready", and each item that is written:
   wrote holding 50 1234
-usage: pymodbus_server.py tcp|rtu|ascii|rtu-over-tcp|ascii-over-tcp PORT|DEVICE
+usage: pymodbus_server.py tcp|rtu|ascii|rtu-over-tcp|ascii-over-tcp PORT|DEVICE [UNITS, as 1,5]
 """
 
 import asyncio
@@ -29,10 +29,10 @@ class Table(ModbusSequentialDataBlock):
             print(f"wrote {self.name} {at} {int(value)}", flush=True)
 
 
-async def main(framing, where):
+async def main(framing, where, units="1"):
     unit = ModbusSlaveContext(co=Table("coils"), di=Table("discrete"), hr=Table("holding"), ir=Table("input"),
                               zero_mode=True)
-    options = {"context": ModbusServerContext(slaves={1: unit}, single=False), "framer": FRAMERS[framing.split("-")[0]],
+    options = {"context": ModbusServerContext(slaves={int(each): unit for each in units.split(",")}, single=False), "framer": FRAMERS[framing.split("-")[0]],
                "identity": ModbusDeviceIdentification(info_name={"VendorName": "Debian", "ProductCode": "pymodbus",
                                                                  "MajorMinorRevision": "3.0"}),
                "broadcast_enable": True, "ignore_missing_slaves": True}

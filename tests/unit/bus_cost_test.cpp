@@ -69,9 +69,10 @@ TEST_CASE("bus cost: request, turnaround, response and the silence behind it")
 TEST_CASE("bus cost: the turnaround is what is left of the time until the answer was there")
 {
     const bus_timing bus{.format = at_9600};
-    const auto asked = std::get<modbus::request>(registers(1));
-    CHECK(turnaround_in(bus, asked, 10ms) == 10ms - 7292us);
-    CHECK(turnaround_in(bus, asked, 7ms) == none);
+    CHECK(turnaround_in(bus, registers(1), 10ms) == 10ms - 7292us);
+    CHECK(turnaround_in(bus, registers(1), 7ms) == none);
+    const bus_timing com{.protocol = bus_protocol::mewtocol_com, .format = at_9600};
+    CHECK(turnaround_in(com, words(1), 20ms) == 20ms - 13542us);
 }
 
 TEST_CASE("bus cost: what one exchange carries")

@@ -21,6 +21,7 @@ struct pickiness {
     std::uint32_t longest = 125;
     std::set<std::uint32_t> boundaries{};
     bool always_03 = false;
+    bool always_02 = false;
 };
 
 // A device, and a gateway that asks it until nothing changes any more.
@@ -46,7 +47,7 @@ struct picky_device : pickiness {
     {
         using cause = station_refusal::cause;
         if (b.end - b.first > longest)
-            return cause::length;
+            return always_02 ? cause::place : cause::length;
         const auto gone = missing.lower_bound(b.first);
         const auto crossed = boundaries.upper_bound(b.first);
         if ((gone != missing.end() && *gone < b.end) || (crossed != boundaries.end() && *crossed < b.end))
@@ -152,9 +153,23 @@ TEST_CASE("learned limits: what is refused is found by halving, and nothing else
          {.boundaries = {8}},
          {{0, 4}, {4, 4}, {8, 4}, {12, 4}},
          "0-7 8-15",
-         "holding is asked by at most 10",  // nothing longer was answered: it may as well be the length
+         "no request goes across holding 8",
          0,
          4},
+        {"a boundary, and routes elsewhere that nothing hinders",
+         {.boundaries = {10}},
+         {{0, 10}, {10, 10}, {100, 10}, {110, 10}},
+         "0-9 10-19 100-119",
+         "no request goes across holding 10",
+         0,
+         1},
+        {"a length, refused with 02",
+         {.longest = 32, .always_02 = true},
+         {{0, 10}, {10, 10}, {20, 10}, {30, 10}, {40, 10}, {50, 10}, {60, 10}, {70, 10}, {80, 10}, {90, 10}},
+         "0-29 30-59 60-69 70-99",
+         "",
+         0,
+         6},
         {"a length",
          {.longest = 32},
          {{0, 10}, {10, 10}, {20, 10}, {30, 10}, {40, 10}, {50, 10}, {60, 10}, {70, 10}, {80, 10}, {90, 10}},

@@ -51,6 +51,20 @@ std::string words(std::size_t count, char digit) { return std::string(4 * count,
 
 }  // namespace
 
+TEST_CASE("mewtocol block transaction: the response time is that of the slowest command")
+{
+    player p{ask_all({three_pieces})};
+    p.next_frame();
+    p.hear("%01$RD" + words(26, '1'), 20ms);
+    p.next_frame();
+    p.hear("%01$RD" + words(26, '2'), 70ms);
+    p.next_frame();
+    p.hear("%01$RD" + words(8, '3'), 10ms);
+    CHECK(p.next_frame().empty());
+    REQUIRE(p.t.outcome().has_value());
+    CHECK(p.t.response_time() == 70ms);
+}
+
 TEST_CASE("mewtocol block transaction: pieces are asked one after the other, the answer is one")
 {
     player p{ask_all({three_pieces})};

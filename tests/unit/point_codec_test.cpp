@@ -171,6 +171,45 @@ TEST_CASE("points: what does not fit is refused, and says what would")
     CHECK(*encode(limited, integer_value(-5)) == regs{10});
 }
 
+TEST_CASE("points: what is written lies inside the limits when it is read back")
+{
+    const struct {
+        double scale;
+        double least;
+        double most;
+        outside_limits outside;
+        double written;
+        std::uint16_t expected;
+    } rows[] = {
+        {1, -10.5, 10.5, outside_limits::clamp, 20, 10},
+        {1, -10.5, 10.5, outside_limits::clamp, -20, static_cast<std::uint16_t>(-10)},
+        {1, 0.5, 9, outside_limits::clamp, -3, 1},
+        {1, -9, -0.5, outside_limits::clamp, 3, static_cast<std::uint16_t>(-1)},
+        {1, 0, 10.5, outside_limits::reject, 10.5, 10},  // inside, but the nearest number is not
+        {0.1, 0, 2.56, outside_limits::clamp, 9, 25},
+        {-0.1, -2.56, 2.56, outside_limits::clamp, 9, static_cast<std::uint16_t>(-25)},
+        {-0.1, -2.56, 2.56, outside_limits::clamp, -9, 25},
+        {0.1, 0, 0.3, outside_limits::clamp, 0.3, 3},  // 3 x 0.1 is more than 0.3, by 6E-17
+        {1, 0, 10, outside_limits::clamp, 20, 10},
+    };
+    for (const auto& row : rows) {
+        CAPTURE(row.scale);
+        CAPTURE(row.written);
+        point_form f = form(value_type::int16);
+        f.scale = row.scale;
+        f.limits = {row.least, row.most, row.outside};
+        const auto words = encode(f, real_value(row.written));
+        REQUIRE(words.has_value());
+        CHECK(*words == regs{row.expected});
+    }
+    point_form narrow = form(value_type::int16);
+    narrow.limits = {10.2, 10.8, outside_limits::clamp};
+    const auto words = encode(narrow, integer_value(10));
+    REQUIRE_FALSE(words.has_value());
+    CHECK(words.error().why == point_fault::outside);
+    CHECK(words.error().text == "no number that the registers can hold is inside the limits, 10.2 to 10.8");
+}
+
 TEST_CASE("points: text in either order")
 {
     point_form f = form(value_type::text);

@@ -17,7 +17,7 @@ std::vector<occupied_devices::run> occupied_devices::overlapping(const runs& of,
 }
 
 std::vector<std::string> occupied_devices::take(const std::string& plc, plc::place at, std::size_t bits,
-                                                std::string who, kind how)
+                                                std::string who, kind how, std::vector<std::size_t> cuts)
 {
     runs& of = areas_[{plc, at.area}];
     std::vector<std::string> names;
@@ -25,7 +25,7 @@ std::vector<std::string> occupied_devices::take(const std::string& plc, plc::pla
         names.push_back(takers_[each.taker].who);
     of.starts.emplace(at.bit, run{at.bit, bits, takers_.size()});
     of.longest = std::max(of.longest, bits);
-    takers_.push_back({std::move(who), how});
+    takers_.push_back({std::move(who), how, std::move(cuts)});
     return names;
 }
 
@@ -38,7 +38,11 @@ std::vector<occupied_devices::taken> occupied_devices::find(const std::string& p
         return found;
     for (const run& each : overlapping(of->second, at.bit, bits)) {
         const bool whole = each.first <= at.bit && at.bit + bits <= each.first + each.bits;
-        found.push_back({takers_[each.taker].who, whole, takers_[each.taker].how});
+        const taker& by = takers_[each.taker];
+        const auto cut = std::find_if(by.cuts.begin(), by.cuts.end(), [&](std::size_t c) {
+            return each.first + c > at.bit && each.first + c < at.bit + bits;
+        });
+        found.push_back({by.who, whole, by.how, cut == by.cuts.end() ? std::nullopt : std::optional(*cut)});
     }
     return found;
 }

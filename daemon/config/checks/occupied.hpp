@@ -4,6 +4,7 @@
 #include "bridge/plc/memory.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,13 +17,15 @@ public:
     enum class kind : std::uint8_t { only_source, shared };
 
     // who: 'route "pump.values"'. Gives those that fill some of these devices already, in the order of their taking.
+    // cuts: bits, counted from the first, before and behind which the devices come at different times.
     std::vector<std::string> take(const std::string& plc, plc::place at, std::size_t bits, std::string who,
-                                  kind how = kind::only_source);
+                                  kind how = kind::only_source, std::vector<std::size_t> cuts = {});
 
     struct taken {
         std::string who;
         bool whole{};  // all of the devices asked for are among its own
         kind how{};
+        std::optional<std::size_t> cut{};  // among the devices asked for: the taker's bit
     };
     std::vector<taken> find(const std::string& plc, plc::place at, std::size_t bits) const;
 
@@ -39,6 +42,7 @@ private:
     struct taker {
         std::string who;
         kind how;
+        std::vector<std::size_t> cuts;
     };
     std::vector<run> overlapping(const runs& of, std::size_t first, std::size_t bits) const;
 

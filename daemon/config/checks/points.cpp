@@ -56,6 +56,15 @@ void check_type(check_context& c, const std::string& row, const point_config& p,
         c.complain(row, "lacks \"bit\": which one of the word, 0 = lowest");
 }
 
+// A long route of a MEWTOCOL station.
+void check_cut(check_context& c, const std::string& row, const occupied_devices::taken& by, const char* way)
+{
+    c.complain(row + "/device", "lies on both sides of the place where " + by.who + " is cut into commands, " +
+                                    std::to_string(*by.cut / 16) + " words behind its first: its registers are " + way +
+                                    " at different times, and the value could be torn. Split the route so "
+                                    "that a route begins with the point");
+}
+
 void check_users(check_context& c, const std::string& row, const point_config& p, plc::place at, std::size_t bits,
                  const device_users& users)
 {
@@ -65,16 +74,21 @@ void check_users(check_context& c, const std::string& row, const point_config& p
                        "lies only partly in the devices of " + each.who +
                            ": its registers would come at different times, and the value could be torn. "
                            "Let one route fill all of them");
+        else if (each.cut)
+            check_cut(c, row, each, "read");
         else if (p.writable && each.how == occupied_devices::kind::only_source)
             c.complain(row + "/writable", "is true, but " + each.who +
                                               " fills these devices and would undo each write: a "
                                               "route of direction read-write takes it to the station");
     }
-    for (const auto& each : users.sent.find(p.plc, at, bits))
+    for (const auto& each : users.sent.find(p.plc, at, bits)) {
+        if (p.writable && each.cut)
+            check_cut(c, row, each, "written");
         if (p.writable && !each.whole)
             c.complain(row + "/device", "lies only partly in the devices of " + each.who +
                                             ": it would be written in two requests, and could be torn. Let one route "
                                             "write all of it");
+    }
 }
 
 void check_point(check_context& c, device_check& devices, const device_users& users, std::size_t i,

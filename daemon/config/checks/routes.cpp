@@ -1,5 +1,6 @@
 #include "bridge/routes/route_status.hpp"
 #include "daemon/config/checks/checks.hpp"
+#include "daemon/config/checks/route_cuts.hpp"
 
 namespace plcgw::config {
 namespace {
@@ -26,12 +27,12 @@ void check_route(check_context& c, device_check& devices, device_users& users, s
         return;
     const std::string who = "route \"" + r.name + "\"";
     if (writes(r.way))
-        users.sent.take(r.plc, *at, bits, who);
+        users.sent.take(r.plc, *at, bits, who, {}, cuts_of(r, line, direction::write));
     if (!reads(r.way))
         return;
     devices.check_filled(item("routes", i, "device"), r.plc, *at, bits);
     const auto how = writes(r.way) ? occupied_devices::kind::shared : occupied_devices::kind::only_source;
-    for (const std::string& other : users.filled.take(r.plc, *at, bits, who, how))
+    for (const std::string& other : users.filled.take(r.plc, *at, bits, who, how, cuts_of(r, line, direction::read)))
         c.complain(item("routes", i, "device"),
                    "overlaps with the devices of " + other + ": each device has one source");
 }

@@ -1,4 +1,5 @@
 #include "daemon/config/checks/checks.hpp"
+#include "daemon/config/checks/route_cuts.hpp"
 
 namespace plcgw::config {
 namespace {
@@ -34,17 +35,6 @@ std::size_t check_modbus(check_context& c, std::size_t i, const route_config& r)
     if (*r.first + r.count > 65'536)
         c.complain(item("routes", i, "count"), "goes beyond address 65535");
     return bits ? r.count : std::size_t{16} * r.count;
-}
-
-mewtocol::block block_of(const route_config& r, const mewtocol::device& first, direction way)
-{
-    const bool is_read = way == direction::read;
-    if (const auto* const contact = std::get_if<mewtocol::contact>(&first))
-        return is_read ? mewtocol::block{mewtocol::read_run{*contact, r.count}}
-                       : mewtocol::block{mewtocol::write_run{*contact, std::vector<bool>(r.count)}};
-    const auto& [area, number] = std::get<mewtocol::word_device>(first);
-    return is_read ? mewtocol::block{mewtocol::read_words{area, number, r.count}}
-                   : mewtocol::block{mewtocol::write_words{area, number, std::vector<std::uint16_t>(r.count)}};
 }
 
 bool is_expressible(const mewtocol::block& b, const line_config& line)
