@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <functional>
 #include <iostream>
@@ -35,7 +36,8 @@ public:
         typename PubSubType::type sample;
         SampleInfo info;
         while (reader_->take_next_sample(&sample, &info) == ReturnCode_t::RETCODE_OK)
-            info.valid_data ? alive(sample, info) : gone(info);
+            info.valid_data ? alive(sample, info) : disposed(info);
+        count_writers();
     }
 
 private:
@@ -48,10 +50,23 @@ private:
         print("alive", all);
     }
 
-    void gone(const SampleInfo& info)
+    // What else may end an instance, its writers' end, Fast DDS 2.9 does not tell by a sample. A late joiner also gets
+    // disposals of what it never had.
+    void disposed(const SampleInfo& info)
     {
-        const bool disposed = info.instance_state == eprosima::fastdds::dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE;
-        print(disposed ? "disposed" : "no writers", key_of_[info.instance_handle]);
+        const auto known = key_of_.find(info.instance_handle);
+        if (known != key_of_.end() && info.instance_state == eprosima::fastdds::dds::NOT_ALIVE_DISPOSED_INSTANCE_STATE)
+            print("disposed", known->second);
+    }
+
+    void count_writers()
+    {
+        eprosima::fastdds::dds::SubscriptionMatchedStatus matched;
+        if (reader_->get_subscription_matched_status(matched) == ReturnCode_t::RETCODE_OK &&
+            matched.current_count != writers_) {
+            writers_ = matched.current_count;
+            std::cout << json{{"topic", topic_}, {"writers", writers_}}.dump() << std::endl;
+        }
     }
 
     void print(const char* instance, const json& more)
@@ -64,6 +79,7 @@ private:
     std::string topic_;
     keys key_;
     DataReader* reader_;
+    std::int32_t writers_ = 0;
     std::map<InstanceHandle_t, json> key_of_;  // Fast DDS 2.9 cannot say what key a handle has
 };
 

@@ -1,6 +1,7 @@
 """A foreign DDS participant: Debian's Fast DDS, on the types that its own generator makes of our IDL (tests/fastdds)."""
 
 import json
+import os
 import subprocess
 
 from support import PATIENCE, Program, binary, wait_for
@@ -22,6 +23,7 @@ class Subscriber(Program):
         self.samples_file = test.folder / f"{len(test.programs)}-fast-dds.json"
         self.read_until = 0
         self.samples = []  # in the order of their arrival
+        self.writers = {}  # of each topic, how many there are
         with open(self.samples_file, "wb") as output:
             super().__init__(test, "fast-dds-peer", [binary("FAST_DDS_PEER"), *options(dds), "subscribe", *topics], output)
 
@@ -32,7 +34,11 @@ class Subscriber(Program):
                 if not line.endswith(b"\n"):
                     break
                 self.read_until += len(line)
-                self.samples.append(json.loads(line))
+                sample = json.loads(line)
+                if "writers" in sample:
+                    self.writers[sample["topic"]] = sample["writers"]
+                else:
+                    self.samples.append(sample)
 
     def of(self, topic, **wanted):
         """All samples of a topic so far that have these fields."""
@@ -51,10 +57,30 @@ class Subscriber(Program):
             return latest if latest and all(latest.get(name) == value for name, value in wanted.items()) else None
         return wait_for(lambda: f"{topic} {key} with {wanted}, the latest is {self.latest(topic, **key)}", fitting, seconds)
 
+    def expect_writers(self, topic, count):
+        wait_for(lambda: f"{count} writers of {topic}, not {self.writers}",
+                 lambda: self.read() or self.writers.get(topic, 0) == count)
+
     def connected(self):
         """Waits until it hears the gateway, and so every event from then on."""
         wait_for("the gateway is heard by Fast DDS", lambda: self.of("GatewayStatus"))
         return self
+
+
+class Publisher(Program):
+    """dds_peer publish: our publisher without a daemon, with routes peer.0, peer.1 ... that it can dispose of."""
+
+    def __init__(self, test, dds, gateway, routes):
+        here, there = os.pipe()
+        self.orders = os.fdopen(there, "wb", buffering=0)
+        test.addCleanup(self.orders.close)
+        with os.fdopen(here, "rb") as orders:
+            super().__init__(test, "dds_peer", [binary("DDS_PEER"), "publish", f"{dds['domain']}/{dds['partition']}",
+                                                gateway, routes], stdin=orders)
+        self.ready()
+
+    def dispose_next(self):
+        self.orders.write(b"\n")
 
 
 class Requests:

@@ -3,7 +3,7 @@
 import struct
 import time
 
-from fastdds import BITS, BOOLEAN, INTEGER, QUALITY, REAL, RECEIVED, TEXT, Subscriber
+from fastdds import BITS, BOOLEAN, INTEGER, QUALITY, REAL, RECEIVED, TEXT, Publisher, Subscriber
 from support import InteropTest, holds, main, route, serial_line, station, wait_for
 from text_device import TextDevice
 
@@ -17,6 +17,40 @@ POINTS = [{"name": "plant.integer", "plc": "main", "device": "D200", "type": "ui
           {"name": "plant.switch", "plc": "main", "device": "M0", "type": "bool"}]
 SCALE = {"name": "weighing", "pattern": "GS,{weight:+#####.#}kg", "plc": "main",
          "fields": [{"name": "weight", "device": "D400", "type": "int32", "decimals": 1}]}
+
+
+class InstancesTest(InteropTest):
+    """What becomes of instances: without key hashes Fast DDS would take it for the one that it heard last."""
+
+    def setUp(self):
+        self.dds = self.configuration()["dds"]
+        self.publisher = Publisher(self, self.dds, "plant", 20)
+        self.fast = Subscriber(self, self.dds)
+        for i in range(20):
+            self.fast.expect("RegisterBlock", self.key(i), instance="alive", words=[i, 7])
+
+    @staticmethod
+    def key(i):
+        return {"gateway": "plant", "route": f"peer.{i}", "area": "holding", "first": i}
+
+    def test_a_route_that_goes_away_is_disposed(self):
+        for i in range(3):
+            self.publisher.dispose_next()
+            self.fast.expect("RegisterBlock", self.key(i), instance="disposed")
+            for other in range(20):
+                self.assertEqual(self.fast.latest("RegisterBlock", **self.key(other))["instance"],
+                                 "disposed" if other <= i else "alive")
+        late = Subscriber(self, self.dds)
+        late.expect("RegisterBlock", self.key(19), instance="alive")
+        self.assertEqual(late.of("RegisterBlock", **self.key(0)), [])
+
+    def test_the_end_of_a_gateway_is_seen(self):
+        for end in (self.publisher.orders.close, lambda: self.again.kill()):  # by itself; killed, its lease is 5 s
+            self.fast.expect_writers("RegisterBlock", 1)
+            end()
+            for topic in ("RegisterBlock", "Point", "GatewayStatus", "SerialMessage"):
+                self.fast.expect_writers(topic, 0)
+            self.again = Publisher(self, self.dds, "plant", 20)
 
 
 class FastDdsTest(InteropTest):
@@ -68,7 +102,7 @@ class FastDdsTest(InteropTest):
         expect("plant.float", kind=REAL, real=21.5, integer=21)
         expect("plant.switch", kind=BOOLEAN, integer=1, real=1)
 
-    def test_a_late_joiner_gets_the_latest_of_every_instance_once(self):
+    def test_a_late_joiner_gets_the_latest_of_every_instance(self):
         first = self.start(points=POINTS)
         first.expect("RegisterBlock", BLOCK, words=REGISTERS)
         self.device.door.write_registers(10, [1, 2, 3, 4])
@@ -81,7 +115,9 @@ class FastDdsTest(InteropTest):
         for point in POINTS:
             late.expect("Point", {"name": point["name"]}, quality=QUALITY["good"])
         late.expect("Point", {"name": "plant.integer"}, integer=1)
-        self.assertEqual(len(late.of("RegisterBlock", **BLOCK)), 1)
+        samples = late.of("RegisterBlock", **BLOCK)
+        self.assertEqual(samples[0]["words"], [1, 2, 3, 4])  # nothing older before it
+        self.assertEqual(len({each["seq"] for each in samples}), len(samples))
 
     def test_quality_turns_when_the_device_dies_and_back(self):
         fast = self.start(points=POINTS[:1])
