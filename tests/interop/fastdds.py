@@ -10,6 +10,9 @@ QUALITY = {"never read": 0, "device error": 12, "comm error": 24, "stale": 68, "
 BITS = 1  # RegisterBlock.format
 BOOLEAN, INTEGER, REAL, TEXT = 1, 2, 3, 4  # Point.kind
 RECEIVED, SENT = 0, 1  # SerialMessage.way
+STATE = {"unknown": 0, "disabled": 1, "down": 2, "starting": 3, "up": 4, "degraded": 5}
+INFO, WARNING, ERROR = 0, 1, 2  # Event.severity
+OK, REJECTED, NOT_FOUND, EXPIRED, DEVICE_ERROR, TIMEOUT, BUSY, STANDBY, DENIED = range(9)  # WriteReply.result
 
 
 def options(dds):
