@@ -35,6 +35,7 @@ const std::vector<topic_row>& table()
     static const std::vector<topic_row> rows = {
         {"WriteRequest", make<WriteRequestPubSubType>},
         {"PointWriteRequest", make<PointWriteRequestPubSubType>},
+        {"SerialSendRequest", make<SerialSendRequestPubSubType>},
     };
     return rows;
 }

@@ -117,4 +117,15 @@ void fill(PointWriteRequest& request, const json& from)
     request.timeout_ms(from.value("timeout_ms", std::uint32_t{}));
 }
 
+void fill(SerialSendRequest& request, const json& from)
+{
+    request.client(text(from, "client"));
+    request.request_id(from.value("request_id", std::uint64_t{}));
+    request.gateway(text(from, "gateway"));
+    request.line(text(from, "line"));
+    request.content(from.value("content", std::vector<std::uint8_t>()));
+    request.source_ns(from.value("source_ns", std::int64_t{}));
+    request.timeout_ms(from.value("timeout_ms", std::uint32_t{}));
+}
+
 }  // namespace fast_dds

@@ -22,5 +22,6 @@ json fields(const plcgw::v1::WriteReply& sample);
 // Fields that are missing are 0 or empty. Throws nlohmann::json::exception.
 void fill(plcgw::v1::WriteRequest& request, const json& from);
 void fill(plcgw::v1::PointWriteRequest& request, const json& from);
+void fill(plcgw::v1::SerialSendRequest& request, const json& from);
 
 }  // namespace fast_dds

@@ -19,7 +19,8 @@ class FastDdsStatusTest(InteropTest):
         self.gateway = self.start_gateway(self.configuration(
             lines=[serial_line(self.folder / "line", response_timeout_ms=300, retries=0),
                    {"name": "text", "device": str(self.scale.link), "protocol": "general-purpose", "parity": "none",
-                    "general_purpose": {"end_code": "cr-lf"}}],
+                    "general_purpose": {"end_code": "cr-lf", "received": [{"name": "heard", "plc": "main", "device": "D600",
+                                                                            "count": 20}]}}],
             stations=[station("one", 1)],
             routes=[route("one.registers", "holding", 0, "D0", 2, period_ms=100),
                     route("one.beyond", "holding", 40000, "D10", 1, period_ms=500)]))

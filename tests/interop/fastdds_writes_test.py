@@ -2,16 +2,16 @@
 
 import time
 
-from fastdds import (BITS, DENIED, DEVICE_ERROR, EXPIRED, INTEGER, NOT_FOUND, OK, QUALITY, REAL, REJECTED, TIMEOUT, Requests,
-                     Subscriber)
+from fastdds import (BITS, DENIED, DEVICE_ERROR, EXPIRED, INTEGER, NOT_FOUND, OK, QUALITY, REAL, REJECTED, SENT, TIMEOUT,
+                     Requests, Subscriber)
 from support import InteropTest, main, route, serial_line, station, wait_for
+from text_device import TextDevice
 
 ILLEGAL_ADDRESS = 2
 BEYOND = 40000  # the device has no such register
 POINTS = [{"name": "memory", "plc": "main", "device": "D500", "type": "uint16", "writable": True},
           {"name": "speed", "plc": "main", "device": "D200", "type": "int16", "scale": 0.5, "writable": True},
           {"name": "fixed", "plc": "main", "device": "D501", "type": "uint16"}]
-
 
 class FastDdsWritesTest(InteropTest):
     def start(self, writes=True, timeout=2000):
@@ -70,7 +70,7 @@ class FastDdsWritesTest(InteropTest):
         self.expect(first, OK)
         self.device.door.write_register(0, 5)
         self.client.write_register(500, 6)
-        self.assertEqual(self.ask(0, [21], request_id=self.requests.last_id), first)
+        self.expect(self.ask(0, [21], request_id=self.requests.last_id), OK, detail=first["detail"])
         self.assertEqual(self.device.door.holding(0), [5])
         # Another client's request of that number is another request.
         other = Requests(self, self.gateway.dds, "other").send("WriteRequest", route="one.set", area="holding", first=0,
@@ -111,6 +111,32 @@ class FastDdsWritesTest(InteropTest):
         self.assertIsNone(self.ask(0, [9], gateway="elsewhere", longest_ms=2000))
         self.expect(self.ask(0, [10]), OK)
         wait_for("only the second was written", lambda: self.device.door.holding(0) == [10])
+
+    def test_messages_are_sent_on_a_serial_line(self):
+        readers = {name: TextDevice(self, name) for name in ("open", "closed")}
+
+        def line(name, device, **more):
+            received = [{"name": name, "plc": "main", "device": device, "count": 20}]
+            return {"name": name, "device": str(readers[name].link), "protocol": "general-purpose", "parity": "none",
+                    "general_purpose": {"end_code": "cr-lf", "received": received, **more}}
+        self.gateway = self.start_gateway(self.configuration(
+            lines=[line("open", "D600", dds_sends=True), line("closed", "D650")], dds={"writes": True}))
+        wait_for("both lines are open", lambda: self.gateway.log.count("is open") == 2)
+        self.requests = Requests(self, self.gateway.dds, "fast")
+        fast = Subscriber(self, self.gateway.dds).connected()
+        spoken = list(b"PRINT 7")
+
+        def send(line, content, **more):
+            return self.requests.send("SerialSendRequest", line=line, content=content, **more)
+        self.expect(send("open", spoken), OK)
+        self.assertEqual(readers["open"].hear(b"\r\n"), b"PRINT 7\r\n")
+        sent = wait_for("what was sent is published", lambda: fast.of("SerialMessage", line="open", way=SENT))
+        self.assertEqual([each["content"] for each in sent], [spoken])
+        self.expect(send("open", spoken, request_id=self.requests.last_id), OK)
+        self.expect(send("closed", spoken), DENIED)
+        self.expect(send("nowhere", spoken), NOT_FOUND)
+        self.expect(send("open", list(b"2")), OK)
+        self.assertEqual(readers["open"].hear(b"\r\n"), b"2\r\n")  # the repetition was not sent again
 
 
 if __name__ == "__main__":
