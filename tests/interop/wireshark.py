@@ -84,7 +84,7 @@ class Sample:
         if not self.labelled:
             return
         names = {each.get("name"): each.get("show") for each in labels[0]}
-        self.topic = names["rtps.param.topicName"]
+        self.name = names["rtps.param.topicName"].removeprefix(TOPICS)
         self.type = names["rtps.param.typeName"]
         self.encapsulation = self.data = self.key_hash = self.status = None
         for each in sub.iter("field"):
