@@ -5,6 +5,7 @@ import re
 import socket
 import subprocess
 import sys
+import tempfile
 import xml.etree.ElementTree as ElementTree
 
 from support import PATIENCE, Program, wait_for
@@ -18,15 +19,17 @@ PORTS_OF_A_DOMAIN = 250
 def skip_unless_capturing(name):
     """Ends the program with 77, and says why, where packets cannot be captured."""
     try:
-        done = subprocess.run(["tshark", "-i", "lo", "-c", "1", "-a", "duration:1", "-w", "/dev/null"], text=True,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                              timeout=3 * PATIENCE, check=False)
+        # Into a file of its own: where it cannot capture, it deletes what it was to write to, were it /dev/null.
+        with tempfile.TemporaryDirectory(prefix="interop.") as folder:
+            done = subprocess.run(["tshark", "-i", "lo", "-c", "1", "-a", "duration:1", "-w", f"{folder}/probe"], text=True,
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                  timeout=3 * PATIENCE, check=False)
     except FileNotFoundError:
         reason = "tshark is missing"
     else:
         if done.returncode == 0:
             return
-        reason = f"packets cannot be captured on lo: {' '.join(done.stdout.split())[-200:]}"
+        reason = f"packets cannot be captured on lo: {' '.join(done.stdout.split())[:300]}"
     print(f"SKIPPED: {reason}")
     with open(os.environ.get("PLCGW_SKIP_REASONS", os.devnull), "a", encoding="utf-8") as reasons:
         reasons.write(f"{name}: {reason}\n")
