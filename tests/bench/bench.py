@@ -16,6 +16,7 @@ FOR_CTEST = ("smoke", "dds_smoke")
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = {"PLC_GATEWAY": "daemon/plc-gateway", "BENCH_WIRE": "tests/bench/bench-wire",
             "BENCH_DDS": "tests/bench/bench-dds", "LIBMODBUS_LOOP": "tests/bench/libmodbus-loop"}
+ONLY_FOR = {"BENCH_DDS": {"dds", "dds_smoke"}, "LIBMODBUS_LOOP": {"bus"}}  # the others are for all
 
 
 def numbers(text):
@@ -51,13 +52,15 @@ def main():
     options = arguments()
     if options.realtime:
         os.environ[REALTIME] = "1"
+    names = options.name or [each for each in MODULES if each not in FOR_CTEST]
     for variable, path in PROGRAMS.items():
         os.environ.setdefault(variable, str(options.build.resolve() / path))
-        if not os.access(os.environ[variable], os.X_OK):
+        needed = ONLY_FOR.get(variable, set(names)).intersection(names)
+        if needed and not os.access(os.environ[variable], os.X_OK):
             sys.exit(f"{os.environ[variable]} is missing: ./test.sh --bench builds it")
     Bench.over_tcp = options.tcp
     failed = False
-    for name in options.name or [each for each in MODULES if each not in FOR_CTEST]:
+    for name in names:
         try:
             importlib.import_module(MODULES[name]).run(options)
         except CannotMeasure as why:
