@@ -1,10 +1,12 @@
 """DDS: samples per second, latency of a change on the wire, processor time, memory; as ratios to a bare Cyclone writer
 with the same types, QoS and settings (bench-dds), and to ddsperf where it can do the same."""
 
+import os
+
 import dds_latency as latency
 import dds_memory as memory
 import dds_rates as rates
-from support import Table
+from support import REALTIME, Table
 
 
 class Ratios:
@@ -25,6 +27,7 @@ class Ratios:
 
 def run(options):
     ratios = Ratios(options)
+    realtime = os.environ.pop(REALTIME, None)  # of two that are as fast as they can, nothing would be left to others
     for paced in (False, True):
         how = f"{rates.PACE * rates.POINTS} samples/s" if paced else "as fast as it can"
         found = [measure(paced, options) for measure in (rates.measure_gateway, rates.measure_bare, rates.measure_ddsperf)]
@@ -32,6 +35,8 @@ def run(options):
             ratios.row("samples/s that came, " + how, "rate", *found, digits=0)
         ratios.row("publisher's us for a sample, " + how, "publisher", *found)
         ratios.row("subscriber's us for a sample, " + how, "reader", *found)
+    if realtime:
+        os.environ[REALTIME] = realtime
     found = [measure(options) for measure in (latency.wire_latencies, latency.bare_latencies, latency.ddsperf_latencies)]
     for key in ("p50", "p99"):
         ratios.row(f"us from the wire to a subscriber, {key}", key, *found, digits=0)
