@@ -22,6 +22,7 @@ test_packages=(
     doctest-dev clang-format clang-tools-14 shellcheck mandoc git
     mbpoll python3-pymodbus python3-serial-asyncio python3-jsonschema socat procps   # other people's software at the other end of every wire
     nodejs npm                                                # jsmodbus and modbus-serial, which npm installs
+    libfastrtps-dev fastddsgen tshark                         # a foreign DDS, and what reads the traffic
     systemd systemd-container dbus                            # a service under a real systemd
     podman buildah crun mmdebstrap docker-compose             # the Dockerfile without a Docker engine
 )

@@ -11,10 +11,12 @@ import sys
 from pathlib import Path
 
 MODULES = {"bus": "bus", "write": "write_latency", "dead": "dead_stations", "forward": "forwarding", "scale": "scale",
-           "smoke": "smoke"}
+           "dds": "dds", "smoke": "smoke", "dds_smoke": "dds_smoke"}
+FOR_CTEST = ("smoke", "dds_smoke")
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = {"PLC_GATEWAY": "daemon/plc-gateway", "BENCH_WIRE": "tests/bench/bench-wire",
-            "LIBMODBUS_LOOP": "tests/bench/libmodbus-loop"}
+            "BENCH_DDS": "tests/bench/bench-dds", "LIBMODBUS_LOOP": "tests/bench/libmodbus-loop"}
+ONLY_FOR = {"BENCH_DDS": {"dds", "dds_smoke"}, "LIBMODBUS_LOOP": {"bus"}}  # the others are for all
 
 
 def numbers(text):
@@ -23,7 +25,7 @@ def numbers(text):
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(MODULES)}; none: all but smoke")
+    parser.add_argument("name", nargs="*", metavar="NAME", help=f"of {', '.join(MODULES)}; none: all but those of ctest")
     parser.add_argument("--build", default=ROOT / "build/release", type=Path, help="build folder of the programs")
     parser.add_argument("--seconds", type=float, default=20, help="length of one measurement")
     parser.add_argument("--slice", type=float, default=4, help="seconds that the machine has to be quiet for at a time")
@@ -51,13 +53,15 @@ def main():
     options = arguments()
     if options.realtime:
         os.environ[REALTIME] = "1"
+    names = options.name or [each for each in MODULES if each not in FOR_CTEST]
     for variable, path in PROGRAMS.items():
         os.environ.setdefault(variable, str(options.build.resolve() / path))
-        if not os.access(os.environ[variable], os.X_OK):
+        needed = ONLY_FOR.get(variable, set(names)).intersection(names)
+        if needed and not os.access(os.environ[variable], os.X_OK):
             sys.exit(f"{os.environ[variable]} is missing: ./test.sh --bench builds it")
     Bench.over_tcp = options.tcp
     failed = False
-    for name in options.name or list(MODULES)[:-1]:
+    for name in names:
         try:
             importlib.import_module(MODULES[name]).run(options)
         except CannotMeasure as why:

@@ -17,6 +17,14 @@ nlohmann::json shares(const std::map<unsigned, std::pair<std::uint64_t, nanoseco
     return listed;
 }
 
+nlohmann::json listed(const std::vector<seen_value>& values)
+{
+    nlohmann::json rows = nlohmann::json::array();
+    for (const seen_value& each : values)
+        rows.push_back({each.unit, each.first, each.value, each.end});
+    return rows;
+}
+
 }  // namespace
 
 void measured::note_silence(nanoseconds silence, nanoseconds rule, bool after_response)
@@ -32,6 +40,12 @@ void measured::note_answer(const answered_request& answered)
 {
     if (blocks_.emplace(answered.unit, answered.function, answered.first).second)
         last_new_block_ = answered.end;
+    if (answered.value) {
+        const auto [shown, fresh] = shown_.try_emplace({answered.unit, answered.first}, *answered.value);
+        if (!fresh && shown->second != *answered.value)
+            changes_.push_back({answered.unit, answered.first, *answered.value, answered.end});
+        shown->second = *answered.value;
+    }
     longest_ = std::max(longest_, answered.ideal);
     last_end_ = answered.end;
     if (answered_++ == 0) {
@@ -47,9 +61,6 @@ void measured::note_answer(const answered_request& answered)
 
 nlohmann::json measured::report() const
 {
-    nlohmann::json writes = nlohmann::json::array();
-    for (const seen_write& each : writes_)
-        writes.push_back({each.unit, each.first, each.value, each.end});
     nlohmann::json excess = nlohmann::json::array();
     for (const nanoseconds each : excess_)
         excess.push_back(microseconds(each));
@@ -68,7 +79,8 @@ nlohmann::json measured::report() const
             {"excess_us", excess},
             {"units", shares(units_)},
             {"functions", shares(functions_)},
-            {"writes", writes},
+            {"writes", listed(writes_)},
+            {"changes", listed(changes_)},
             {"blocks", blocks_.size()},
             {"last_new_block_ns", last_new_block_}};
 }
@@ -77,6 +89,7 @@ void measured::begin()
 {
     measured fresh;
     fresh.blocks_ = std::move(blocks_);
+    fresh.shown_ = std::move(shown_);
     fresh.last_new_block_ = last_new_block_;
     *this = std::move(fresh);
 }

@@ -7,6 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <map>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -18,20 +19,21 @@ struct answered_request {
     unsigned first;
     nanoseconds ideal;  // silence, request, turnaround and response
     nanoseconds end;
+    std::optional<unsigned> value;  // of the first register of a read
 };
 
-struct seen_write {
+struct seen_value {
     std::uint8_t unit;
     unsigned first;
-    unsigned value;  // of the first register
-    nanoseconds end;
+    unsigned value;   // of the first register
+    nanoseconds end;  // of the request that writes it, or of the response that shows it
 };
 
 class measured {
 public:
     void note_silence(nanoseconds silence, nanoseconds rule, bool after_response);
     void note_answer(const answered_request& answered);
-    void note_write(const seen_write& seen) { writes_.push_back(seen); }
+    void note_write(const seen_value& seen) { writes_.push_back(seen); }
 
     std::uint64_t requests = 0;
     std::uint64_t unanswered = 0;
@@ -53,7 +55,9 @@ private:
     std::vector<nanoseconds> excess_;                                      // silence after a response beyond the rule
     std::map<unsigned, std::pair<std::uint64_t, nanoseconds>> units_;      // responses and ideal time of each
     std::map<unsigned, std::pair<std::uint64_t, nanoseconds>> functions_;  // the same
-    std::vector<seen_write> writes_;
+    std::vector<seen_value> writes_;
+    std::vector<seen_value> changes_;                            // of what reads of a block show
+    std::map<std::pair<unsigned, unsigned>, unsigned> shown_;    // the latest, windows do not matter
     std::set<std::tuple<unsigned, unsigned, unsigned>> blocks_;  // ever answered, windows do not matter
     nanoseconds last_new_block_ = 0;
 };

@@ -183,7 +183,7 @@ def knows_merge():
 class Slice:
     """A few seconds of a running load: what the wires saw, and whether the machine stood still."""
 
-    def __init__(self, wires, program, seconds, during=None):
+    def __init__(self, wires, program, seconds, during=None, ignored=()):
         wires.report()
         starved, began = program.starved(), time.monotonic()
         self.result = during(seconds) if during else time.sleep(seconds)
@@ -192,7 +192,7 @@ class Slice:
         self.lines = report["lines"]
         self.machine = {**report["machine"], "starved": (program.starved() - starved) / self.seconds}
         self.spoiled = any(self.machine[what] > most for what, most in MOST.items()
-                           if what != "mean_hop_us" or not Bench.over_tcp)
+                           if what not in ignored and (what != "mean_hop_us" or not Bench.over_tcp))
 
     def badness(self):
         return self.machine["still"] + self.machine["starved"] + self.machine["mean_hop_us"] / 1e4
@@ -233,13 +233,13 @@ def added_up(reports):
     return sums
 
 
-def quiet_window(what, wires, program, options, during=None):
+def quiet_window(what, wires, program, options, during=None, ignored=()):
     """Slices in which the machine did not stand still, until they are long enough together. Where there are none, the
-    least bad one, marked as spoiled."""
+    least bad one, marked as spoiled. `ignored` of MOST is what the load does to itself."""
     good, spoiled = [], []
     deadline = time.monotonic() + PATIENCE + 2 * options.seconds
     while sum(each.seconds for each in good) < options.seconds:
-        one = Slice(wires, program, min(options.slice, options.seconds), during)
+        one = Slice(wires, program, min(options.slice, options.seconds), during, ignored)
         (spoiled if one.spoiled else good).append(one)
         if time.monotonic() > deadline:
             break

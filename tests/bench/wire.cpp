@@ -10,6 +10,15 @@ constexpr std::size_t fifo_trigger = 8;   // of 16: what Linux sets for a 16550A
 constexpr std::int64_t fifo_timeout = 4;  // characters without a new one
 constexpr std::size_t nonsense = 300;     // bytes that no request has
 
+// The first register that the response to a read shows.
+std::optional<unsigned> value_of(byte_span response)
+{
+    constexpr std::size_t shortest = 7;
+    if (response.size() < shortest || (response[1] != 3 && response[1] != 4))
+        return std::nullopt;
+    return static_cast<unsigned>(response[3]) << 8 | response[4];
+}
+
 }  // namespace
 
 void wire::heard(nanoseconds now, byte_span bytes)
@@ -124,7 +133,8 @@ byte_vector wire::due(nanoseconds now)
 
 void wire::finish_response()
 {
-    window_.note_answer({response_->unit, response_->function, response_->first, response_->ideal, response_end()});
+    window_.note_answer({response_->unit, response_->function, response_->first, response_->ideal, response_end(),
+                         value_of(response_->bytes)});
     answered_last_ = true;
     response_.reset();
 }

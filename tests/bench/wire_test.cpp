@@ -130,3 +130,22 @@ TEST_CASE("wire: the end of a write request is remembered, and that a dead stati
     CHECK(report["unanswered"] == 1);
     CHECK(line.deadline() == wire::never());
 }
+
+TEST_CASE("wire: a change is remembered with the end of the response that shows it first")
+{
+    station counting;
+    counting.turnaround = turnaround;
+    counting.moving = 2;  // every second read
+    counting.registers.resize(8);
+    station_table stations;
+    stations.add(1, counting);
+    wire line(ten_kilobaud, std::move(stations));
+    constexpr nanoseconds apart = 100 * ms;
+    for (int i = 0; i < 4; ++i) {
+        line.heard(t0 + i * apart, question);
+        line.due(answer_end + i * apart);
+    }
+    const auto first = nlohmann::json{1, 5, 1, answer_end + apart};
+    const auto second = nlohmann::json{1, 5, 2, answer_end + 3 * apart};
+    CHECK(line.window().report()["changes"] == nlohmann::json{first, second});
+}

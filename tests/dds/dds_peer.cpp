@@ -1,5 +1,6 @@
 // The other process of the DDS tests; PLACE is domain/partition.
-// dds_peer publish PLACE GATEWAY ROUTES: publishes, prints "ready", and ends with its standard input.
+// dds_peer publish PLACE GATEWAY ROUTES: publishes, prints "ready", and ends with its standard input; each line there
+//                                        disposes of the next route.
 // dds_peer watch PLACE json|lines COUNT TIMEOUT_MS [FILTER]...: `plc-gateway watch`; 0 is no count, no timeout.
 #include "bridge/dds/publisher.hpp"
 #include "daemon/watch.hpp"
@@ -12,25 +13,32 @@ using namespace plcgw;
 
 namespace {
 
+sample peer_sample(unsigned i)
+{
+    return {"peer." + std::to_string(i),
+            "holding",
+            i,
+            sample_format::words,
+            2,
+            {std::uint16_t(i), 7},
+            quality::good,
+            wall_time{1'700'000'000'123'000'000}};
+}
+
 int publish(const dds_settings& settings, const std::string& gateway, unsigned routes)
 {
     auto out = dds_publisher::create(settings, {gateway, "peer", "1.0", "hash"});
     if (!out)
         return std::fprintf(stderr, "%s\n", out.error().text.c_str()), 1;
     for (unsigned i = 0; i < routes; ++i)
-        out->publish(sample{"peer." + std::to_string(i),
-                            "holding",
-                            i,
-                            sample_format::words,
-                            2,
-                            {std::uint16_t(i), 7},
-                            quality::good,
-                            wall_time{1'700'000'000'123'000'000}});
+        out->publish(peer_sample(i));
     out->publish(gateway_status{gateway_role::solo, 0, wall_time{1}, routes, routes});
     std::puts("ready");
     std::fflush(stdout);
-    while (std::getchar() != EOF) {
-    }
+    unsigned disposed = 0;
+    for (int c = std::getchar(); c != EOF; c = std::getchar())
+        if (c == '\n')
+            out->dispose(peer_sample(disposed++));
     return 0;
 }
 

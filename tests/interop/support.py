@@ -48,7 +48,7 @@ def holds(what, condition, seconds):
 class Program:
     """A running program. What it prints is shown when the test fails."""
 
-    def __init__(self, test, name, arguments, output=None, **environment):
+    def __init__(self, test, name, arguments, output=None, stdin=subprocess.DEVNULL, **environment):
         self.name = name
         self.log_file = test.folder / f"{len(test.programs)}-{name}.log"
         self.stopped_with = None
@@ -58,7 +58,7 @@ class Program:
         # A test that CTest kills takes its programs along; field-line takes its own.
         orphaned = signal.SIGTERM if name == "field-line" else signal.SIGKILL
         with open(self.log_file, "wb") as log:
-            self.process = subprocess.Popen([str(a) for a in arguments], stdin=subprocess.DEVNULL, stdout=output or log,
+            self.process = subprocess.Popen([str(a) for a in arguments], stdin=stdin, stdout=output or log,
                                             stderr=log, cwd=test.folder, env={**inherited, **environment},
                                             preexec_fn=lambda: LIBC.prctl(PR_SET_PDEATHSIG, orphaned))
         test.addCleanup(self.finish, test)

@@ -13,10 +13,10 @@ BUFFERS_FULL = 1 << 9
 
 
 class TextDevice:
-    """The far end of a pty that the gateway opens as folder/line."""
+    """The far end of a pty that the gateway opens by its name in the test's folder."""
 
-    def __init__(self, test):
-        self.link = test.folder / "line"
+    def __init__(self, test, name="line"):
+        self.link = test.folder / name
         self.ours, self.theirs = os.openpty()
         tty.setraw(self.theirs)
         self.link.symlink_to(os.ttyname(self.theirs))
