@@ -20,6 +20,7 @@ public:
 
     asio::awaitable<void> run() override;
     void wake() override;
+    const port_status& port() const override { return connection_->meter().status(); }
 
     messages::line_messages content;
 
@@ -28,6 +29,7 @@ private:
     asio::awaitable<boost::system::error_code> listen();
     asio::awaitable<boost::system::error_code> exchange(messages::line_messages::question question);
     void take_messages();
+    void take(result<buffer> message);
     void look_for_overruns();
     void say_what_is_not_seen();
 

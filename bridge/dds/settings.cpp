@@ -46,11 +46,11 @@ std::string cyclone_xml(const dds_settings& settings)
                        R"(<General>{}<AllowMulticast>{}</AllowMulticast></General>)"
                        R"(<Discovery><ParticipantIndex>auto</ParticipantIndex>)"
                        R"(<MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>)"
-                       R"(<LeaseDuration>5s</LeaseDuration>{}</Discovery>)"
+                       R"(<LeaseDuration>{}ms</LeaseDuration>{}</Discovery>)"
                        R"(<Internal><GenerateKeyhash>true</GenerateKeyhash>)"
                        R"(<WriterLingerDuration>0s</WriterLingerDuration></Internal>)"
                        R"(</Domain></CycloneDDS>)",
-                       interfaces, loopback ? "false" : "default", peers);
+                       interfaces, loopback ? "false" : "default", settings.lease.count(), peers);
 }
 
 }  // namespace plcgw
