@@ -128,6 +128,11 @@ void look_at_cyclone_config(const dds_settings& settings, findings& found)
                          settings.cyclone_config + " does not switch key hashes on: Fast DDS readers take the end of "
                                                    "one instance for the end of another",
                          "add <Internal><GenerateKeyhash>true</GenerateKeyhash></Internal> to its domain"});
+    if (text.find("<MultipleReceiveThreads>false<") == std::string::npos)
+        found.push_back({weight::bad,
+                         settings.cyclone_config + " allows several receive threads: the gateway would hang when the "
+                                                   "address of its interface changes",
+                         "add <Internal><MultipleReceiveThreads>false</MultipleReceiveThreads></Internal>"});
 }
 
 void look_at_interface(const dds_settings& settings, findings& found)

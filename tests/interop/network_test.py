@@ -11,7 +11,7 @@ DOMAIN = 44
 
 
 def may_make_namespaces():
-    tried = subprocess.run(["unshare", "--net", "ip", "link", "add", "a", "type", "veth", "peer", "name", "b"],
+    tried = subprocess.run(["unshare", "--net", "ip", "link", "add", "plant0", "type", "veth", "peer", "name", "office0"],
                            capture_output=True, check=False)
     return tried.returncode == 0
 
