@@ -31,6 +31,12 @@ void published_blocks::say_everything()
         block.changed = true;
 }
 
+void published_blocks::keep_silences(time_point now, duration longest)
+{
+    for (row& block : rows_)
+        block.changed = block.changed || now - block.said_at >= longest;
+}
+
 void published_blocks::publish()
 {
     if (!dds_.is_open())
@@ -40,6 +46,7 @@ void published_blocks::publish()
             continue;
         const sample now_in_it = sample_now(block);
         block.said = now_in_it.state;
+        block.said_at = now();
         dds_.publish(now_in_it);
     }
 }

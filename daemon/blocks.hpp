@@ -25,13 +25,15 @@ public:
     void memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
     void qualities_changed();  // a route's quality is that of the block over its devices, too
     void say_everything();
-    void publish();  // those that changed
+    void keep_silences(time_point now, duration longest);  // what was not said for so long is due again
+    void publish();                                        // those that changed
 
 private:
     struct row {
         plc_block content;
         bool changed = true;
         quality said = quality::good;
+        time_point said_at{};
     };
 
     sample sample_now(const row& block) const;

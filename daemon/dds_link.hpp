@@ -1,12 +1,17 @@
-// The publisher of a gateway, created again for as long as that fails: a network interface may come later.
+// The publisher of a gateway, created again for as long as that fails: a network interface may come later, or come back
+// with another address.
 #pragma once
 
 #include "bridge/dds/publisher.hpp"
+#include "bridge/link_status.hpp"
+#include "daemon/address_watch.hpp"
 #include "daemon/config/config.hpp"
 
 #include <boost/asio/io_context.hpp>
 
+#include <functional>
 #include <optional>
+#include <vector>
 
 namespace plcgw {
 
@@ -17,36 +22,43 @@ public:
     dds_link(const dds_link&) = delete;
     dds_link& operator=(const dds_link&) = delete;
 
-    // True when it opened just now: everything has to be published. Nothing happens while DDS is switched off.
+    // Each second. True when it opened just now: everything has to be published. Nothing happens while DDS is switched
+    // off.
     bool open();
 
-    bool is_open() const { return publisher_.has_value(); }
+    // Who else has something in the domain. A domain that hears nobody any more is made anew: it ends with its last
+    // user, so each closes what it has when it is called, and opens it again later: when open() returns true, or when
+    // it tries on its own.
+    void add_part(std::function<void()> close) { parts_.push_back(std::move(close)); }
 
-    void publish(const sample& s)
+    bool is_open() const { return publisher_.has_value(); }
+    const port_status& port() const { return port_; }  // "dds": what was published and dropped
+
+    template <class... What>
+    void publish(const What&... what)
     {
         if (publisher_)
-            publisher_->publish(s);
-    }
-    void publish(const point_sample& point)
-    {
-        if (publisher_)
-            publisher_->publish(point);
-    }
-    void publish(const serial_message& message)
-    {
-        if (publisher_)
-            publisher_->publish(message);
-    }
-    void publish(const gateway_status& status)
-    {
-        if (publisher_)
-            publisher_->publish(status);
+            publisher_->publish(what...);
     }
 
 private:
+    void close();
+    std::string watched_interface() const;
+    void look_at_addresses();
+    void look_at_publisher();
+    void show(link_state state, std::string detail);
+
     dds_settings settings_;
     dds_identity identity_;
     std::optional<dds_publisher> publisher_;
+    std::vector<std::function<void()>> parts_;
+    address_watch addresses_;
+    port_status port_;
+    std::uint64_t published_before_ = 0;  // by publishers that were closed
+    std::uint64_t drops_before_ = 0;
+    std::uint64_t drops_said_ = 0;
+    unsigned seconds_since_drops_ = 0;
+    bool was_open_ = false;
     bool failed_ = false;  // and said so
 };
 

@@ -10,6 +10,8 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
+json time_json(wall_time t) { return t == wall_time::never ? json() : json(iso_time(t)); }
+
 json json_of(const received_block& e)
 {
     const auto& v = e.value;
@@ -24,7 +26,7 @@ json json_of(const received_block& e)
             {"values", values_of(v)},
             {"quality", to_string(v.state)},
             {"quality_code", e.code},
-            {"source_time", v.source == wall_time::never ? json() : json(iso_time(v.source))},
+            {"source_time", time_json(v.source)},
             {"source_ns", static_cast<std::int64_t>(v.source)},
             {"seq", e.seq}};
 }
@@ -50,7 +52,7 @@ json json_of(const received_point& e)
             {"unit", e.unit},
             {"quality", to_string(e.state)},
             {"quality_code", e.code},
-            {"source_time", e.source == wall_time::never ? json() : json(iso_time(e.source))},
+            {"source_time", time_json(e.source)},
             {"source_ns", static_cast<std::int64_t>(e.source)},
             {"seq", e.seq}};
 }
@@ -63,7 +65,7 @@ json json_of(const received_status& e)
             {"member", e.who.member},
             {"role", to_string(s.role)},
             {"strength", s.strength},
-            {"started", s.started == wall_time::never ? json() : json(iso_time(s.started))},
+            {"started", time_json(s.started)},
             {"started_ns", static_cast<std::int64_t>(s.started)},
             {"beat", e.beat},
             {"routes_up", s.routes_up},
@@ -88,6 +90,60 @@ json json_of(const received_message& e)
             {"seq", e.seq}};
 }
 
+json json_of(const received_port& e)
+{
+    const port_status& s = e.status;
+    return {{"event", "port"},
+            {"gateway", e.gateway},
+            {"member", e.member},
+            {"port", s.port},
+            {"state", to_string(s.state)},
+            {"since", time_json(s.since)},
+            {"since_ns", static_cast<std::int64_t>(s.since)},
+            {"rx_frames", s.rx_frames},
+            {"tx_frames", s.tx_frames},
+            {"rx_bytes", s.rx_bytes},
+            {"tx_bytes", s.tx_bytes},
+            {"errors", s.errors},
+            {"reopens", s.reopens},
+            {"detail", s.detail}};
+}
+
+json json_of(const received_device& e)
+{
+    const device_status& s = e.status;
+    return {{"event", "device"},
+            {"gateway", e.gateway},
+            {"member", e.member},
+            {"device", s.device},
+            {"port", s.port},
+            {"state", to_string(s.state)},
+            {"since", time_json(s.since)},
+            {"since_ns", static_cast<std::int64_t>(s.since)},
+            {"last_ok", time_json(s.last_ok)},
+            {"last_ok_ns", static_cast<std::int64_t>(s.last_ok)},
+            {"requests", s.requests},
+            {"timeouts", s.timeouts},
+            {"exceptions", s.exceptions},
+            {"rtt_us", s.rtt_us},
+            {"cycle_us", s.cycle_us},
+            {"detail", s.detail}};
+}
+
+json json_of(const received_event& e)
+{
+    return {{"event", "event"},
+            {"gateway", e.gateway},
+            {"member", e.member},
+            {"id", e.id},
+            {"source_time", time_json(e.when)},
+            {"source_ns", static_cast<std::int64_t>(e.when)},
+            {"severity", to_string(e.level)},
+            {"code", e.code},
+            {"subject", e.subject},
+            {"text", e.text}};
+}
+
 json json_of(const gone_block& e)
 {
     return {{"event", "gone"}, {"gateway", e.gateway}, {"route", e.route},
@@ -97,6 +153,16 @@ json json_of(const gone_block& e)
 json json_of(const gone_point& e)
 {
     return {{"event", "gone"}, {"gateway", e.gateway}, {"point", e.name}, {"reason", to_string(e.reason)}};
+}
+
+json json_of(const gone_port& e)
+{
+    return {{"event", "gone"}, {"gateway", e.gateway}, {"port", e.port}, {"reason", to_string(e.reason)}};
+}
+
+json json_of(const gone_device& e)
+{
+    return {{"event", "gone"}, {"gateway", e.gateway}, {"device", e.device}, {"reason", to_string(e.reason)}};
 }
 
 json json_of(const gone_gateway& e)

@@ -34,7 +34,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     : loop_(loop), config_(from.config), started_(wall_now()), learned_(loop, config_.state.folder),
       fp7_ports_(loop, [this] { settle_memory(); }), upstream_(loop, [this] { settle_memory(); }),
       through_(loop.get_executor()), dds_(loop, config_, from.hash), blocks_(lines_, message_lines_, dds_),
-      points_(loop, dds_), second_(loop), watchdog_(loop)
+      points_(loop, dds_), statuses_(dds_, config_.dds.status_silence), second_(loop), watchdog_(loop)
 {
     make_plcs(from.folder);
     make_lines();
@@ -44,6 +44,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_plc_links();
     make_copies();
     make_points();
+    make_statuses();
     learned_.remember(lines_);
 }
 
@@ -90,7 +91,8 @@ void gateway::make_lines()
     const auto gate = [this](const std::string& name) -> forward_gate& { return find_line(name)->gate; };
     for (const line_config& each : config_.lines)
         if (each.role == line_role::server && each.protocol != line_protocol::general_purpose)
-            server_lines_.push_back(make_server_line(loop_, each, plc, gate, fp7_ports_, [this] { settle_memory(); }));
+            server_lines_.push_back(
+                make_server_line(loop_, each, plc, gate, fp7_ports_, [this] { settle_server_line(); }));
 }
 
 void gateway::make_message_line(const line_config& line)
@@ -171,8 +173,24 @@ void gateway::make_plc_links()
     if (config_.plc_links.empty())
         return;
     links_ = std::make_unique<plc_links>(loop_, config_, started_, [this] { settle_memory(); });
+    dds_.add_part([this] { links_->close(); });
     for (const plc_link_config& each : config_.plc_links)
         links_->add(each, *find_plc(each.plc), fp7_ports_);
+}
+
+void gateway::make_statuses()
+{
+    for (const auto& line : lines_) {
+        statuses_.add(line->driver->port());
+        statuses_.add(line->routes);
+    }
+    for (const auto& line : server_lines_)
+        statuses_.add(line->port());
+    for (const auto& line : message_lines_)
+        statuses_.add(line->port());
+    for (const auto& server : servers_)
+        statuses_.add(server->port());
+    statuses_.add(dds_.port());
 }
 
 bool gateway::start()
@@ -203,10 +221,12 @@ bool gateway::listen()
 {
     for (const auto& server : servers_) {
         if (const auto ec = server->listen()) {
-            log::error("MODBUS TCP cannot listen on {}: {}. {}", server->endpoint(), ec.message(), cure_of(ec));
+            plcgw::say(line_event::severity::error, "listener.failed", server->port().port,
+                       "MODBUS TCP cannot listen on {}: {}. {}", server->endpoint(), ec.message(), cure_of(ec));
             return false;
         }
-        log::info("MODBUS TCP listens on {}", server->endpoint());
+        plcgw::say(line_event::severity::info, "listener.open", server->port().port, "MODBUS TCP listens on {}",
+                   server->endpoint());
         asio::co_spawn(loop_, server->accept_clients(), asio::detached);
     }
     return true;
@@ -247,6 +267,7 @@ void gateway::publish_everything()
         line->content.say_everything();
         say(line->content.take_samples(now()));
     }
+    statuses_.say_everything(now(), wall_now());
 }
 
 asio::awaitable<void> gateway::every_second()
@@ -257,8 +278,11 @@ asio::awaitable<void> gateway::every_second()
         for (const auto& line : lines_)
             line->statuses.show(wall_now());
         settle_memory();
+        blocks_.keep_silences(now(), config_.dds.longest_silence);
+        blocks_.publish();
         points_.keep_silences();
         points_.publish();
+        statuses_.look(now(), wall_now());
         show_status();
         second_.expires_after(status_period);
         co_await second_.async_wait(no_throw);

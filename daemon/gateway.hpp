@@ -12,6 +12,7 @@
 #include "daemon/points.hpp"
 #include "daemon/running_line.hpp"
 #include "daemon/server_line.hpp"
+#include "daemon/statuses.hpp"
 #include "daemon/tcp_server.hpp"
 #include "daemon/upstream.hpp"
 
@@ -39,6 +40,7 @@ private:
     void make_copies();
     void make_points();
     void make_plc_links();
+    void make_statuses();
     plc::simulated_plc* find_plc(const std::string& name);
     running_line* find_line(const std::string& name);
     unit_target target_of(const unit_config& unit);
@@ -48,6 +50,7 @@ private:
     // The one place where changes are drained, after an exchange on a line or a client's requests.
     void settle(running_line& line);
     void settle(message_line& line);
+    void settle_server_line();
     void say(const std::vector<sample>& samples);
     void settle_memory();
     void note_writes();
@@ -77,6 +80,7 @@ private:
     dds_link dds_;
     published_blocks blocks_;
     published_points points_;
+    published_statuses statuses_;
     std::optional<control_server> control_;
     asio::steady_timer second_;
     asio::steady_timer watchdog_;

@@ -20,6 +20,7 @@ void gateway::settle(running_line& line)
     line.statuses.show(wall_now());
     settle_memory();
     say(line.routes.take_samples(now()));
+    statuses_.look_at_states(now(), wall_now());
 }
 
 void gateway::settle(message_line& line)
@@ -30,6 +31,13 @@ void gateway::settle(message_line& line)
     for (const serial_message& each : line.content.take_messages())
         dds_.publish(each);
     say(samples);
+    statuses_.look_at_states(now(), wall_now());
+}
+
+void gateway::settle_server_line()
+{
+    settle_memory();
+    statuses_.look_at_states(now(), wall_now());
 }
 
 void gateway::say(const std::vector<sample>& samples)

@@ -2,6 +2,7 @@
 // connection. It is opened again when it comes back: absence is a normal state.
 #pragma once
 
+#include "bridge/port_meter.hpp"
 #include "daemon/bit_errors.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/read_before.hpp"
@@ -16,7 +17,14 @@ namespace plcgw {
 
 class line_connection {
 public:
+    explicit line_connection(const std::string& line) : meter_(line) {}
     virtual ~line_connection() = default;
+    line_connection(const line_connection&) = delete;
+    line_connection& operator=(const line_connection&) = delete;
+
+    // State and bytes are counted here, frames by who knows them.
+    port_meter& meter() { return meter_; }
+    const port_meter& meter() const { return meter_; }
 
     // True when it is open now; false after a failed attempt and the pause behind it, so that the caller can say so.
     virtual asio::awaitable<bool> open() = 0;
@@ -43,6 +51,9 @@ public:
 
     // For the quality of what came over it.
     virtual std::string absence() const = 0;
+
+protected:
+    port_meter meter_;
 };
 
 // By whether the line has a device or a host.

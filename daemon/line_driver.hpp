@@ -1,6 +1,8 @@
 // What the gateway needs to know of whatever carries a line's requests: a serial port or a TCP connection.
 #pragma once
 
+#include "bridge/link_status.hpp"
+
 #include <boost/asio/awaitable.hpp>
 
 namespace plcgw {
@@ -10,6 +12,7 @@ public:
     virtual ~line_driver() = default;
     virtual boost::asio::awaitable<void> run() = 0;  // until the io_context ends
     virtual void wake() = 0;                         // something is due at once
+    virtual const port_status& port() const = 0;     // what carries it
 };
 
 }  // namespace plcgw

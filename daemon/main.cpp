@@ -1,6 +1,6 @@
 // The command line.
-#include "daemon/config/read.hpp"
 #include "daemon/config/schema.hpp"
+#include "daemon/dds_commands.hpp"
 #include "daemon/link_time_command.hpp"
 #include "daemon/map_command.hpp"
 #include "daemon/plan_command.hpp"
@@ -9,7 +9,6 @@
 #include "daemon/run.hpp"
 #include "daemon/scan_cli.hpp"
 #include "daemon/version.hpp"
-#include "daemon/watch.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -21,43 +20,6 @@ namespace {
 
 constexpr int usage_error = 2;
 constexpr int cannot_run = 3;  // for example out of memory or descriptors: systemd tries again
-
-// The options of `watch`, from the command line or from the configuration of the gateway that is watched.
-struct watch_arguments {
-    plcgw::watch_options options;
-    std::string config_file;
-    unsigned timeout_s = 0;
-    unsigned count = 0;
-
-    void add_to(CLI::App& command)
-    {
-        command.add_option("-c,--config", config_file, "Take the DDS settings from this configuration");
-        command.add_option("-d,--domain", options.dds.domain, "DDS domain")->capture_default_str();
-        command.add_option("-i,--interface", options.dds.interface, "Network interface; empty: the first suitable")
-            ->capture_default_str();
-        command.add_option("--peer", options.dds.peers, "Address of a host that multicast does not reach");
-        command.add_option("--partition", options.dds.partition, "DDS partition");
-        command.add_flag("--json", options.json, "One JSON object per line");
-        command.add_option("-n,--count", count, "End after so many register samples");
-        command.add_option("-t,--timeout", timeout_s, "End after so many seconds");
-        command.add_option("routes", options.filters, "Beginnings of route names; none: all");
-    }
-
-    int run()
-    {
-        if (!config_file.empty()) {
-            const auto loaded = plcgw::config::load_file(config_file);
-            if (plcgw::config::has_errors(loaded.found))
-                return plcgw::check(config_file);  // says what is wrong with it
-            options.dds = loaded.config.dds.settings;
-        }
-        if (count != 0)
-            options.count = count;
-        if (timeout_s != 0)
-            options.timeout = std::chrono::seconds(timeout_s);
-        return plcgw::watch(options);
-    }
-};
 
 void add_map(CLI::App& command, plcgw::map_options& o)
 {
@@ -124,9 +86,16 @@ int run_command(int argc, char** argv)
     plan->add_option("file", planned_file, "Configuration file")->required();
     plan->add_option("line", planned_line, "Name of a line; none: all");
 
-    watch_arguments watched;
-    CLI::App* const watch = app.add_subcommand("watch", "Show live registers, received by DDS");
+    plcgw::watch_arguments watched;
+    CLI::App* const watch =
+        app.add_subcommand("watch", "Show what gateways publish: registers, points, states, events");
     watched.add_to(*watch);
+
+    plcgw::doctor_arguments examined;
+    CLI::App* const doctor = app.add_subcommand("doctor", "Look for what is wrong, and say what to do");
+    doctor->require_subcommand(1);
+    CLI::App* const doctor_dds = doctor->add_subcommand("dds", "Why gateways and readers do not find each other");
+    examined.add_to(*doctor_dds);
 
     plcgw::map_options mapped;
     CLI::App* const map = app.add_subcommand("map", "Show which device stands behind which MODBUS number");
@@ -167,6 +136,8 @@ int run_command(int argc, char** argv)
         return plcgw::show_plan(planned_file, planned_line);
     if (*watch)
         return watched.run();
+    if (*doctor_dds)
+        return examined.run();
     if (*plc)
         return plcgw::plc_client(socket, plc_action, plc_name);
     if (*plc_link)

@@ -120,7 +120,16 @@ asio::awaitable<error_code> message_line::listen()
 void message_line::take_messages()
 {
     while (auto each = content.framer().next(now()))
-        content.received(std::move(*each), now(), wall_now());
+        take(std::move(*each));
+}
+
+void message_line::take(result<buffer> message)
+{
+    if (message)
+        connection_->meter().frames_received();
+    else
+        connection_->meter().fault(message.error());
+    content.received(std::move(message), now(), wall_now());
 }
 
 asio::awaitable<error_code> message_line::exchange(messages::line_messages::question question)
@@ -137,6 +146,7 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
             if (question.answer == expect::nothing)
                 echo_.sent(to_send->message, false, started + std::chrono::hours(1));  // in no doubt
             ec = co_await connection_->write(to_send->message);
+            connection_->meter().frames_sent();
             if (asking.attempts() == 0 && !ec)
                 content.sent(question, wall_now());
             asking.sent(started);
@@ -158,7 +168,9 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
     }
     line_free_from_ = asking.line_free_from();
     for (auto& each : asking.take_others())
-        content.received(std::move(each), now(), wall_now());
+        take(std::move(each));
+    if (asking.outcome() && question.answer != expect::nothing)
+        connection_->meter().frames_received();
     for (unsigned i = 0; i < asking.unanswered(); ++i)
         connection_->missed_answer();
     if (const auto& outcome = asking.outcome())

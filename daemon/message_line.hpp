@@ -20,6 +20,7 @@ public:
 
     asio::awaitable<void> run() override;
     void wake() override;
+    const port_status& port() const override { return connection_->meter().status(); }
 
     messages::line_messages content;
 
@@ -30,6 +31,7 @@ private:
     void take_messages();
     template <class Receiver>
     void look_for_overruns(Receiver& into);
+    void take(result<buffer> message);
     void say_what_is_not_seen();
 
     template <class Receiver>

@@ -28,12 +28,14 @@ asio::awaitable<void> mewtocol_server::run()
 {
     for (;;) {
         const bool is_open = co_await connection_->open();
+        settle_();
         if (!is_open)
             continue;
         in_ = mewtocol::line_framer(longest_pause);
         echo_ = echo_filter(config_.echo);
         const error_code ec = co_await serve();
         connection_->close(ec);
+        settle_();
     }
 }
 
@@ -62,6 +64,10 @@ asio::awaitable<error_code> mewtocol_server::serve()
 
 asio::awaitable<error_code> mewtocol_server::take(mewtocol::reception heard, time_point at)
 {
+    if (is_frame(heard))
+        connection_->meter().frames_received();
+    else
+        connection_->meter().fault(heard.why);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         std::optional<buffer> characters = stations_[i].hear(now(), heard);
         if (!characters)
@@ -84,6 +90,7 @@ asio::awaitable<error_code> mewtocol_server::reply(buffer characters, time_point
     }
     echo_.sent(characters, is_like_request(characters), now() + echo_time(config_, characters.size()));
     const error_code ec = co_await connection_->write(characters);
+    connection_->meter().frames_sent();
     co_return ec;
 }
 

@@ -21,6 +21,7 @@ public:
 
     asio::awaitable<void> run() override;
     void wake() override {}
+    const port_status& port() const override { return connection_->meter().status(); }
 
     // The channel reset of a station's port: a command half heard and an answer not yet begun are given up.
     void reset(std::size_t station);

@@ -1,5 +1,6 @@
 #include "daemon/plc_links.hpp"
 
+#include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -48,7 +49,8 @@ bool plc_links::open()
     auto made = plc_link_port::create(settings_, plc_link_pace{}.given_up);
     if (!made) {
         if (!std::exchange(failed_, true))
-            log::warning("PLC links: {}. It is tried again until it works", made.error().text);
+            say(line_event::severity::warning, "plc_link.failed", "dds",
+                "PLC links: {}. It is tried again until it works", made.error().text);
         return false;
     }
     const int descriptor = ::dup(made->descriptor());
@@ -56,17 +58,26 @@ bool plc_links::open()
         return false;
     wakes_.assign(descriptor);
     port_.emplace(std::move(*made));
+    failed_ = false;
+    asio::co_spawn(loop_, listen(), asio::detached);
     return true;
+}
+
+void plc_links::close()
+{
+    port_.reset();
+    boost::system::error_code ignored;
+    wakes_.close(ignored);
+    timer_.cancel();
 }
 
 asio::awaitable<void> plc_links::keep_time()
 {
-    while (!open()) {
-        timer_.expires_after(open_again);
-        co_await timer_.async_wait(no_throw);
-    }
-    asio::co_spawn(loop_, listen(), asio::detached);
     for (;;) {
+        while (!port_ && !open()) {
+            timer_.expires_after(open_again);
+            co_await timer_.async_wait(no_throw);
+        }
         // Words that came while this process stood still came in time: before somebody is given up.
         receive();
         for (plc_link_exchange& link : links_)
@@ -82,7 +93,7 @@ asio::awaitable<void> plc_links::listen()
 {
     for (;;) {
         const auto [ec] = co_await wakes_.async_wait(asio::posix::stream_descriptor::wait_read, no_throw);
-        if (ec)
+        if (ec || !port_)
             co_return;  // what comes is taken when the timer looks
         receive();
     }
@@ -132,10 +143,9 @@ void plc_links::log_events()
 {
     for (plc_link_exchange& link : links_)
         for (const plc_link_event& event : link.take_events()) {
-            if (event.level == plc_link_event::severity::warning)
-                log::warning("{}", event.text);
-            else
-                log::info("{}", event.text);
+            const bool warns = event.level == plc_link_event::severity::warning;
+            say(warns ? line_event::severity::warning : line_event::severity::info,
+                warns ? "plc_link.warning" : "plc_link.info", link.link(), "{}", event.text);
         }
 }
 

@@ -22,6 +22,7 @@ public:
     // The link is what COM.1 of the PLC does, unless something else is that already.
     void add(const plc_link_config& link, plc::simulated_plc& plc, fp7_ports& ports);
     void start();
+    void close();  // until it opens again, by itself: DDS gets a new domain
 
     const std::vector<plc_link_exchange>& all() const { return links_; }
     bool runs() const { return port_.has_value(); }  // false while DDS does not work

@@ -18,6 +18,7 @@ public:
 
     asio::awaitable<void> run() override;
     void wake() override;
+    const port_status& port() const override { return connection_->meter().status(); }
 
 protected:
     // Asks it, and tells the routes how it ended unless the port failed: that is said here.
@@ -57,9 +58,17 @@ template <class Transaction>
 asio::awaitable<boost::system::error_code> polling_line::carry_out(Transaction& transaction,
                                                                    const client_line::question& question)
 {
+    const bool is_answered = question.unit != station_number(modbus::unit_id::broadcast);
+    bool waits = false;  // for the answer to what was sent
     for (std::size_t told = 0;;) {
         const auto action = transaction.next(now());
         const bool again = told < transaction.faults().size();
+        for (std::size_t fault = told; fault < transaction.faults().size(); ++fault)
+            if (const errc why = as_fault(transaction.faults()[fault]).why; why != errc::timed_out)
+                connection_->meter().fault(why);
+        if (waits && !again && !std::holds_alternative<typename Transaction::wait>(action))
+            connection_->meter().frames_received();
+        waits = waits && !again;
         for (; told < transaction.faults().size(); ++told)
             if (routes_.attempt_failed(question, as_fault(transaction.faults()[told])))
                 settle_();  // a PLC's program shows its retries as they happen
@@ -72,6 +81,8 @@ asio::awaitable<boost::system::error_code> polling_line::carry_out(Transaction& 
             const time_point started = now();
             ec = co_await connection_->write(to_send->adu);
             transaction.sent(started);
+            connection_->meter().frames_sent();
+            waits = is_answered;
         }
         else {
             const time_point until = std::get<typename Transaction::wait>(action).until;

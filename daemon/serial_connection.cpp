@@ -1,5 +1,6 @@
 #include "daemon/serial_connection.hpp"
 
+#include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
 #include "daemon/low_latency.hpp"
 #include "daemon/serial_port.hpp"
@@ -35,7 +36,7 @@ void ask_for_low_latency(const line_config& line, int port)
 }  // namespace
 
 serial_connection::serial_connection(asio::io_context& loop, const line_config& line)
-    : line_(line), port_(loop), guard_(port_), pause_(loop), next_pause_(first_pause)
+    : line_connection(line.name), line_(line), port_(loop), guard_(port_), pause_(loop), next_pause_(first_pause)
 {
 }
 
@@ -51,9 +52,11 @@ asio::awaitable<bool> serial_connection::open()
         const error_code ec = try_open();
         if (!ec)
             co_return true;
+        meter_.lost(wall_now(), line_.device + " cannot be opened: " + ec.message());
         if (ec != last_error_)
-            log::warning("line {}: {} cannot be opened ({}): it is tried again until it is there", line_.name,
-                         line_.device, ec.message());
+            say(line_event::severity::warning, "port.absent", line_.name,
+                "line {}: {} cannot be opened ({}): it is tried again until it is there", line_.name, line_.device,
+                ec.message());
         last_error_ = ec;
     }
     pause_.expires_after(next_pause_);
@@ -76,11 +79,13 @@ error_code serial_connection::try_open()
     opened_at_ = now();
     alive_ = false;
     bit_errors_ = bit_errors_of(*fd).value_or(bit_errors{});
-    log::info("line {}: {} is open, {} {}{}{}", line_.name, line_.device, line_.baud_rate, line_.data_bits,
-              line_.check == parity::none  ? 'N'
-              : line_.check == parity::odd ? 'O'
-                                           : 'E',
-              line_.stop_bits);
+    meter_.opened(wall_now());
+    say(line_event::severity::info, "port.open", line_.name, "line {}: {} is open, {} {}{}{}", line_.name, line_.device,
+        line_.baud_rate, line_.data_bits,
+        line_.check == parity::none  ? 'N'
+        : line_.check == parity::odd ? 'O'
+                                     : 'E',
+        line_.stop_bits);
     if (!warning.empty())
         log::warning("line {}: {}: {}", line_.name, line_.device, warning);
     if (line_.low_latency)
@@ -102,9 +107,10 @@ void serial_connection::close(const error_code& why)
     port_.close(ignored);
     // A half-dead adapter opens and fails at once, again and again: that is a back-off, too, and said once.
     failed_at_once_ = !alive_ && now() - opened_at_ < short_life;
+    meter_.lost(wall_now(), line_.device + " was lost: " + why.message());
     if (!failed_at_once_ || last_error_ != why)
-        log::warning("line {}: {} was lost ({}): it is reopened when it comes back", line_.name, line_.device,
-                     why.message());
+        say(line_event::severity::warning, "port.lost", line_.name,
+            "line {}: {} was lost ({}): it is reopened when it comes back", line_.name, line_.device, why.message());
     last_error_ = why;
     if (!failed_at_once_)
         next_pause_ = first_pause;
@@ -115,6 +121,7 @@ asio::awaitable<error_code> serial_connection::write(bytes adu)
     guard_.arm(now() + character_time(format_of(line_), adu.size()) + write_slack);
     const auto [ec, size] = co_await asio::async_write(port_, asio::buffer(adu.data(), adu.size()), no_throw);
     const bool cut_short = guard_.disarm();
+    meter_.sent(size);
     if (ec == asio::error::operation_aborted && cut_short)
         co_return error_code(asio::error::timed_out);
     co_return ec;
@@ -125,6 +132,8 @@ asio::awaitable<boost::system::result<std::size_t>> serial_connection::read(time
 {
     const auto size = co_await read_before(deadline, port_, guard_, into);
     alive_ = alive_ || size.has_value();
+    if (size)
+        meter_.received(*size);
     co_return size;
 }
 

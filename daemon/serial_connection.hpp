@@ -12,8 +12,6 @@ public:
     serial_connection(asio::io_context& loop, const line_config& line);
 
     ~serial_connection() override;
-    serial_connection(const serial_connection&) = delete;
-    serial_connection& operator=(const serial_connection&) = delete;
 
     asio::awaitable<bool> open() override;
     void close(const boost::system::error_code& why) override;

@@ -56,9 +56,11 @@ asio::awaitable<void> serial_server::run()
         }
         in_ = make_framer();
         echo_ = echo_filter(config_.echo);
+        settle_();
         const error_code ec = co_await serve();
         others_.give_up();
         connection_->close(ec);
+        settle_();
     }
 }
 
@@ -92,6 +94,10 @@ asio::awaitable<error_code> serial_server::serve()
 asio::awaitable<error_code> serial_server::take(bus_event event)
 {
     others_.give_up();  // whatever it is: the client does not wait any more
+    if (event.what == bus_event::kind::dropped)
+        connection_->meter().fault(event.why);
+    else
+        connection_->meter().frames_received();
     const bool ascii = framing_of(config_) == modbus::framing::ascii;
     const auto is_end_of_frame = [&](modbus_station& at) { return !ascii || at.delimiter() == in_.delimiter(); };
     const bit_errors wrong = connection_->take_bit_errors();
@@ -158,6 +164,7 @@ asio::awaitable<error_code> serial_server::send(modbus::frame content, std::uint
     const buffer adu = modbus::encode_adu(framing_of(config_), content, delimiter);
     echo_.sent(adu, like_request, now() + echo_time(config_, adu.size()));
     const error_code ec = co_await connection_->write(adu);
+    connection_->meter().frames_sent();
     co_return ec;
 }
 

@@ -23,6 +23,7 @@ public:
 
     asio::awaitable<void> run() override;
     void wake() override {}
+    const port_status& port() const override { return connection_->meter().status(); }
 
     // The channel reset of an FP7's port: a request half heard and a reply not yet begun are given up.
     void reset();

@@ -1,6 +1,6 @@
 #include "daemon/tcp_connection.hpp"
 
-#include "daemon/log.hpp"
+#include "daemon/line_events.hpp"
 #include "daemon/tcp_connect.hpp"
 
 #include <boost/asio/write.hpp>
@@ -40,7 +40,8 @@ void set_options(asio::ip::tcp::socket& socket)
 }  // namespace
 
 tcp_connection::tcp_connection(asio::io_context& loop, const line_config& line)
-    : line_(line), socket_(loop), guard_(socket_), pause_(loop), next_pause_(first_pause), patience_(first_patience)
+    : line_connection(line.name), line_(line), socket_(loop), guard_(socket_), pause_(loop), next_pause_(first_pause),
+      patience_(first_patience)
 {
 }
 
@@ -50,7 +51,9 @@ asio::awaitable<bool> tcp_connection::open()
         const time_point deadline = now() + connect_timeout;
         const error_code ec = co_await connect_before(deadline, socket_, guard_, line_.host, line_.port);
         if (!ec) {
-            log::info("line {}: connected to {}:{}", line_.name, line_.host, line_.port);
+            meter_.opened(wall_now());
+            say(line_event::severity::info, "port.open", line_.name, "line {}: connected to {}:{}", line_.name,
+                line_.host, line_.port);
             set_options(socket_);
             opened_at_ = heard_ = now();
             missed_ = 0;
@@ -82,9 +85,11 @@ void tcp_connection::close(const error_code& why)
 
 void tcp_connection::say_absent(const error_code& why)
 {
+    meter_.lost(wall_now(), fmt::format("no connection to {}:{}: {}", line_.host, line_.port, why.message()));
     if (!std::exchange(said_, true))
-        log::warning("line {}: no connection to {}:{} ({}): it is tried again until there is one", line_.name,
-                     line_.host, line_.port, why.message());
+        say(line_event::severity::warning, "port.lost", line_.name,
+            "line {}: no connection to {}:{} ({}): it is tried again until there is one", line_.name, line_.host,
+            line_.port, why.message());
 }
 
 asio::awaitable<error_code> tcp_connection::write(bytes adu)
@@ -92,6 +97,7 @@ asio::awaitable<error_code> tcp_connection::write(bytes adu)
     guard_.arm(now() + write_timeout);
     const auto [ec, size] = co_await asio::async_write(socket_, asio::buffer(adu.data(), adu.size()), no_throw);
     const bool cut_short = guard_.disarm();
+    meter_.sent(size);
     if (ec == asio::error::operation_aborted && cut_short)
         co_return error_code(asio::error::timed_out);
     co_return ec;
@@ -101,6 +107,7 @@ asio::awaitable<boost::system::result<std::size_t>> tcp_connection::read(time_po
 {
     const auto size = co_await read_before(deadline, socket_, guard_, into);
     if (size) {
+        meter_.received(*size);
         heard_ = now();
         missed_ = 0;
         patience_ = first_patience;

@@ -89,6 +89,7 @@ void tcp_line::ask(key who, buffer& out)
     const time_point deadline = now() + each.question.timing.response_timeout;
     const buffer adu = open_.ask(who, unit_of(each.question.unit), each.question.request(), deadline);
     out.insert(out.end(), adu.begin(), adu.end());
+    connection_.meter().frames_sent();
 }
 
 void tcp_line::ask_again_or_fail(buffer& out)
@@ -108,8 +109,11 @@ bool tcp_line::take_answers(bytes received)
 {
     in_.feed(received);
     while (const auto next = in_.next()) {
-        if (!*next)
+        if (!*next) {
+            connection_.meter().fault(next->error());
             return false;
+        }
+        connection_.meter().frames_received();
         if (const auto outcome = open_.take(**next))
             finish(*outcome);
     }

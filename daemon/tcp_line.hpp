@@ -20,6 +20,7 @@ public:
 
     asio::awaitable<void> run() override;
     void wake() override;
+    const port_status& port() const override { return connection_.meter().status(); }
 
 private:
     struct under_way {

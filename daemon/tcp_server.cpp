@@ -1,5 +1,6 @@
 #include "daemon/tcp_server.hpp"
 
+#include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
 #include "daemon/serial_framing.hpp"
 
@@ -43,6 +44,7 @@ tcp_server::tcp_server(asio::io_context& loop, tcp_server_config config, const u
     : config_(std::move(config)), acceptor_(loop), pause_(loop)
 {
     service_.endpoint = to_text(address());
+    service_.meter = port_meter("modbus-tcp/" + service_.endpoint);
     service_.units = units;
     service_.through = &through;
     service_.settle = std::move(settle);
@@ -66,6 +68,8 @@ error_code tcp_server::listen()
     if (acceptor_.bind(at, ec); ec)
         return ec;
     acceptor_.listen(asio::socket_base::max_listen_connections, ec);
+    if (!ec)
+        service_.meter.opened(wall_now());
     return ec;
 }
 
@@ -85,8 +89,9 @@ asio::awaitable<void> tcp_server::accept_clients()
         std::shared_ptr<void> place = take_place();
         if (!place) {
             if (!std::exchange(refusing_, true))
-                log::warning("MODBUS TCP {}: {} is refused, there are {} clients already (max_clients)", endpoint(),
-                             peer, config_.max_clients);
+                say(line_event::severity::warning, "client.refused", port().port,
+                    "MODBUS TCP {}: {} is refused, there are {} clients already (max_clients)", endpoint(), peer,
+                    config_.max_clients);
             continue;  // closes the connection
         }
         refusing_ = false;

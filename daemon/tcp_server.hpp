@@ -21,6 +21,7 @@ public:
     boost::system::error_code listen();
     asio::awaitable<void> accept_clients();  // until the io_context ends
 
+    const port_status& port() const { return service_.meter.status(); }
     const std::string& endpoint() const { return service_.endpoint; }  // "127.0.0.1:1502", for the log
 
 private:

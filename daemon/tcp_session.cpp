@@ -73,6 +73,7 @@ asio::awaitable<void> tcp_session::run()
         if (ec)
             break;
         quiet_since_ = now();
+        service_.meter.received(size);
         framing_->feed(quiet_since_, bytes(received_).first(size));
         take_questions();
     }
@@ -96,6 +97,10 @@ void tcp_session::take_questions()
         part_since_ = now();
         good_ = next->has_value();
         if (good_)
+            service_.meter.frames_received();
+        else
+            service_.meter.fault(next->error());
+        if (good_)
             take(**next);
         else if (service_.may_complain())
             log::warning("MODBUS TCP {}: {} sent what is no {}, its connection is closed", service_.endpoint, peer_,
@@ -108,6 +113,12 @@ void tcp_session::take_questions()
     flush();
     service_.settle();
     watch();
+}
+
+void tcp_session::append(const modbus::tcp_frame& reply)
+{
+    framing_->append(replies_, reply);
+    service_.meter.frames_sent();
 }
 
 void tcp_session::take(const modbus::tcp_frame& question)
@@ -134,7 +145,7 @@ void tcp_session::take(const modbus::tcp_frame& question)
             return;
         }
     }
-    framing_->append(replies_, reply);
+    append(reply);
 }
 
 // The client hears what the station said.
@@ -147,7 +158,7 @@ asio::awaitable<void> tcp_session::answer_later(std::shared_ptr<tcp_session> sel
     if (failed)
         reply.content.pdu = modbus::encode_exception(reply.content.pdu[0], *failed);
     if (!self->abandoned_ && !self->is_late(asked_at))
-        self->framing_->append(self->replies_, reply);
+        self->append(reply);
     self->quiet_since_ = now();
     self->flush();
     self->changed_.cancel();
@@ -167,7 +178,7 @@ void tcp_session::forward(const modbus::tcp_frame& question, const unit_target& 
     const auto request = modbus::parse_request(question.content.pdu);
     if (!request) {
         buffer pdu = modbus::encode_exception(question.content.pdu[0], request.error());
-        framing_->append(replies_, {question.id, {question.content.unit, std::move(pdu)}});
+        append({question.id, {question.content.unit, std::move(pdu)}});
         return;
     }
     const station_key key{to.line, to.unit};
@@ -197,7 +208,7 @@ asio::awaitable<void> tcp_session::ask_station(std::shared_ptr<tcp_session> self
         buffer pdu = modbus::encode_response(first.request, as_response(answer));
         const bool answers = !pdu.empty();  // nobody answers a broadcast, or the command to listen only
         if (answers && !self->is_late(asked_at))
-            self->framing_->append(self->replies_, {first.id, {first.unit, std::move(pdu)}});
+            self->append({first.id, {first.unit, std::move(pdu)}});
         queue.waiting.pop_front();
         --self->under_way_;
         self->quiet_since_ = now();
@@ -241,7 +252,8 @@ void tcp_session::flush()
     sending_.swap(replies_);
     writing_ = true;
     write_until_ = now() + write_timeout;
-    asio::async_write(socket_, asio::buffer(sending_), [self = shared_from_this()](error_code ec, std::size_t) {
+    asio::async_write(socket_, asio::buffer(sending_), [self = shared_from_this()](error_code ec, std::size_t size) {
+        self->service_.meter.sent(size);
         self->writing_ = false;
         self->sending_.clear();
         if (ec)

@@ -1,6 +1,7 @@
 // One client's connection to a MODBUS TCP server.
 #pragma once
 
+#include "bridge/port_meter.hpp"
 #include "daemon/read_before.hpp"
 #include "daemon/tcp_framing.hpp"
 #include "daemon/through_writes.hpp"
@@ -20,6 +21,7 @@ namespace plcgw {
 // What the clients of one listener share.
 struct tcp_service {
     std::string endpoint;  // "127.0.0.1:1502", for the log
+    port_meter meter;      // of all its clients
     unit_table units;
     through_writes* through = nullptr;
     std::function<void()> settle;  // called after replies went out, to drain what the requests changed
@@ -58,6 +60,7 @@ private:
 
     void take_questions();
     void take(const modbus::tcp_frame& question);
+    void append(const modbus::tcp_frame& reply);
     void take_broadcast(bytes pdu);
     void forward(const modbus::tcp_frame& question, const unit_target& to);
     static asio::awaitable<void> ask_station(std::shared_ptr<tcp_session> self, station_key to);

@@ -1,6 +1,6 @@
 #include "daemon/upstream.hpp"
 
-#include "daemon/log.hpp"
+#include "daemon/line_events.hpp"
 #include "daemon/read_before.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -44,14 +44,6 @@ boost::asio::awaitable<void> upstream_watch::keep_time()
     }
 }
 
-void upstream_watch::log_events()
-{
-    for (const line_event& event : guards_.take_events()) {
-        if (event.level == line_event::severity::warning)
-            log::warning("{}", event.text);
-        else
-            log::info("{}", event.text);
-    }
-}
+void upstream_watch::log_events() { plcgw::log_events(guards_.take_events()); }
 
 }  // namespace plcgw

@@ -2,20 +2,19 @@
 #pragma once
 
 #include "bridge/dds/settings.hpp"
+#include "daemon/watch_filter.hpp"
 
 #include <chrono>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace plcgw {
 
 struct watch_options {
     dds_settings dds;
     bool json = false;                                 // one object per line for each event
-    std::optional<unsigned> count;                     // end after so many register samples
+    std::optional<unsigned> count;                     // end after so many samples, is_counted()
     std::optional<std::chrono::milliseconds> timeout;  // end after this time
-    std::vector<std::string> filters;                  // beginnings of route names; empty: all routes
+    watch_filter filter;
 };
 
 // Runs until count, timeout, Ctrl-C (SIGINT, SIGTERM, SIGHUP) or the end of who reads its output. On a terminal it

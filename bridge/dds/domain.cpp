@@ -5,6 +5,8 @@
 #include <dds/dds.h>
 #include <fmt/format.h>
 
+#include <fstream>
+#include <iterator>
 #include <map>
 
 namespace plcgw {
@@ -19,7 +21,15 @@ dds_result<std::shared_ptr<dds_domain>> dds_domain::open(const dds_settings& set
     // Weak: an address that changed needs a new domain, so the old one must go with its last user.
     static std::map<std::uint32_t, std::weak_ptr<dds_domain>> domains;
 
-    const std::string xml = cyclone_xml(settings);
+    std::string xml = cyclone_xml(settings);
+    if (!settings.cyclone_config.empty()) {
+        std::ifstream file(settings.cyclone_config);
+        xml.assign(std::istreambuf_iterator<char>(file), {});
+        if (xml.find('<') == std::string::npos)
+            return dds_error{
+                fmt::format("{} cannot be read, or is no Cyclone DDS configuration", settings.cyclone_config)};
+        xml.erase(0, xml.find('<'));
+    }
     auto& slot = domains[settings.domain];
     if (auto domain = slot.lock()) {
         if (domain->xml_ != xml)
@@ -30,10 +40,11 @@ dds_result<std::shared_ptr<dds_domain>> dds_domain::open(const dds_settings& set
     log_capture log;
     const dds_entity_t entity = dds_create_domain(settings.domain, xml.c_str());
     if (entity < 0)
-        return creation_error(
-            fmt::format("DDS domain {} on {}", settings.domain,
-                        settings.interface.empty() ? "any interface" : "interface " + settings.interface),
-            entity, log.text());
+        return creation_error(fmt::format("DDS domain {} {}", settings.domain,
+                                          !settings.cyclone_config.empty() ? "as " + settings.cyclone_config + " says"
+                                          : settings.interface.empty()     ? "on any interface"
+                                                                           : "on interface " + settings.interface),
+                              entity, log.text());
     auto domain = std::make_shared<dds_domain>(entity, xml);
     slot = domain;
     return domain;
@@ -56,33 +67,5 @@ dds_result<std::unique_ptr<dds_participant>> dds_participant::open(const dds_set
 dds_participant::~dds_participant() { dds_delete(entity_); }
 
 void qos_deleter::operator()(dds_qos* qos) const { dds_delete_qos(qos); }
-
-qos_ptr partition_qos(const dds_settings& settings)
-{
-    qos_ptr qos(dds_create_qos());
-    const char* name = settings.partition.c_str();
-    if (!settings.partition.empty())
-        dds_qset_partition(qos.get(), 1, &name);
-    return qos;
-}
-
-qos_ptr state_qos()
-{
-    qos_ptr qos(dds_create_qos());
-    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);  // a write never waits
-    dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
-    return qos;
-}
-
-qos_ptr event_qos()
-{
-    constexpr std::int32_t kept = 256;
-    qos_ptr qos(dds_create_qos());
-    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
-    dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept);
-    return qos;
-}
 
 }  // namespace plcgw

@@ -8,6 +8,7 @@
 #include <memory>
 
 struct dds_qos;
+struct dds_topic_descriptor;
 
 namespace plcgw {
 
@@ -57,10 +58,13 @@ qos_ptr partition_qos(const dds_settings& settings);  // for a DDS publisher or 
 qos_ptr state_qos();  // RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1: both sides of every state topic
 qos_ptr event_qos();  // RELIABLE, VOLATILE, KEEP_LAST 256: writers of events, which a stopped reader must not block
 
-inline constexpr auto register_block_topic = "plcgw/v1/RegisterBlock";
-inline constexpr auto point_topic = "plcgw/v1/Point";
-inline constexpr auto gateway_status_topic = "plcgw/v1/GatewayStatus";
-inline constexpr auto serial_message_topic = "plcgw/v1/SerialMessage";
+const dds_topic_descriptor& type_of(dds_topic which);
+
+// Of the gateway's writers and of our readers of a topic, as the site has set it.
+qos_ptr writer_qos(const dds_settings& settings, dds_topic which);
+qos_ptr reader_qos(const dds_settings& settings, dds_topic which);
+
+std::string_view policy_name(std::uint32_t policy);  // of dds_..._incompatible_qos_status: "reliability"
 
 // "cannot create X: Bad Parameter", and what Cyclone logged about it.
 dds_error creation_error(const std::string& what, std::int32_t code, const std::string& logged);

@@ -1,7 +1,9 @@
-// What a subscriber hears: registers, a gateway's status, or that there is nobody left who writes them.
+// What a subscriber hears: registers, a gateway's status, what happened, or that there is nobody left who writes them.
 #pragma once
 
 #include "bridge/dds/gateway_status.hpp"
+#include "bridge/line_event.hpp"
+#include "bridge/link_status.hpp"
 #include "bridge/points/point.hpp"
 #include "bridge/sample.hpp"
 #include "bridge/serial_message.hpp"
@@ -45,6 +47,30 @@ struct received_message {
     serial_message value;
 };
 
+struct received_port {
+    std::string gateway;
+    std::string member;
+    port_status status;
+};
+
+struct received_device {
+    std::string gateway;
+    std::string member;
+    device_status status;
+};
+
+// Something that a gateway has to say.
+struct received_event {
+    std::string gateway;
+    std::string member;
+    std::uint64_t id{};
+    wall_time when{};
+    line_event::severity level{};
+    std::string code;
+    std::string subject;
+    std::string text;
+};
+
 enum class gone_reason : std::uint8_t {
     disposed,     // the route went away
     writer_lost,  // the gateway ended, or was not heard for its lease: the last values are old
@@ -64,13 +90,26 @@ struct gone_point {
     gone_reason reason{};
 };
 
+struct gone_port {
+    std::string gateway;
+    std::string port;
+    gone_reason reason{};
+};
+
+struct gone_device {
+    std::string gateway;
+    std::string device;
+    gone_reason reason{};
+};
+
 struct gone_gateway {
     std::string gateway;
     std::string member;
     gone_reason reason{};
 };
 
-using dds_event = std::variant<received_block, received_point, received_status, received_message, gone_block,
-                               gone_point, gone_gateway>;
+using dds_event =
+    std::variant<received_block, received_point, received_status, received_port, received_device, received_message,
+                 received_event, gone_block, gone_point, gone_port, gone_device, gone_gateway>;
 
 }  // namespace plcgw

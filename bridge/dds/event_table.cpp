@@ -1,6 +1,7 @@
 #include "bridge/dds/event_table.hpp"
 
 #include "bridge/dds/event_text.hpp"
+#include "bridge/dds/table_row.hpp"
 #include "bridge/messages/notation.hpp"
 
 #include <fmt/format.h>
@@ -45,13 +46,13 @@ line_style style_of(quality q)
     return line_style::old;
 }
 
+}  // namespace
+
 std::string row_text(char mark, const std::string& route, const std::string& registers, std::string_view quality,
                      const std::string& age, const std::string& values)
 {
     return fmt::format("{} {:<20} {:<18} {:<12} {:>7}  {}", mark, route, registers, quality, age, values);
 }
-
-}  // namespace
 
 bool event_table::apply(const dds_event& event, wall_time now)
 {
@@ -137,6 +138,10 @@ std::vector<table_line> event_table::lines(wall_time now, std::size_t width, std
         gateways.insert(key.first);
     for (const auto& [key, row] : messages_)
         gateways.insert(std::get<0>(key));
+    for (const auto& [key, row] : ports_)
+        gateways.insert(key.first);
+    for (const auto& [key, row] : devices_)
+        gateways.insert(key.first);
 
     std::vector<table_line> out;
     for (const auto& gateway : gateways)
@@ -176,6 +181,8 @@ void event_table::gateway_lines(const std::string& gateway, wall_time now, std::
     if (!known)
         out.push_back({line_style::warning, fmt::format("gateway {}: no status", printable(gateway))});
 
+    port_lines(gateway, now, out);
+    device_lines(gateway, now, out);
     out.push_back({line_style::heading, row_text(' ', "ROUTE", "REGISTERS", "QUALITY", "AGE", "VALUES")});
     for (const auto& [key, row] : blocks_) {
         if (std::get<0>(key) != gateway)
@@ -189,6 +196,7 @@ void event_table::gateway_lines(const std::string& gateway, wall_time now, std::
     }
     point_lines(gateway, now, out);
     message_lines(gateway, now, out);
+    event_lines(gateway, out);
 }
 
 void event_table::point_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const

@@ -5,6 +5,7 @@
 #include "bridge/dds/event.hpp"
 
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <string>
 #include <tuple>
@@ -45,13 +46,27 @@ private:
         writer state{};
     };
 
+    template <class Status>
+    struct status_row {
+        Status last;
+        writer state{};
+    };
+
     bool apply_one(const received_block& e, wall_time now);
     bool apply_one(const received_point& e, wall_time now);
+    bool apply_one(const received_port& e, wall_time now);
+    bool apply_one(const received_device& e, wall_time now);
+    bool apply_one(const received_event& e, wall_time now);
+    bool apply_one(const gone_port& e, wall_time now);
+    bool apply_one(const gone_device& e, wall_time now);
     bool apply_one(const gone_point& e, wall_time now);
     bool apply_one(const received_status& e, wall_time now);
     bool apply_one(const received_message& e, wall_time now);
     bool apply_one(const gone_block& e, wall_time now);
     bool apply_one(const gone_gateway& e, wall_time now);
+    void port_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
+    void device_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
+    void event_lines(const std::string& gateway, std::vector<table_line>& out) const;
     void point_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
     void message_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
     void gateway_lines(const std::string& gateway, wall_time now, std::vector<table_line>& out) const;
@@ -61,8 +76,12 @@ private:
     using message_key = std::tuple<std::string, std::string, message_direction, std::string>;  // gateway, line, name
     std::map<member_key, member_row> members_;
     std::map<block_key, block_row> blocks_;
-    std::map<std::pair<std::string, std::string>, point_row> points_;  // gateway, name
-    std::map<message_key, received_message> messages_;                 // the last one each
+    using name_key = std::pair<std::string, std::string>;  // gateway, name
+    std::map<name_key, point_row> points_;
+    std::map<name_key, status_row<received_port>> ports_;
+    std::map<name_key, status_row<received_device>> devices_;
+    std::deque<received_event> events_;                 // the last few of all gateways
+    std::map<message_key, received_message> messages_;  // the last one each
 };
 
 }  // namespace plcgw

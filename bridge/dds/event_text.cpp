@@ -32,6 +32,25 @@ std::string line(const received_status& e)
     return fmt::format("gateway {}, member {}: {}", printable(e.who.gateway), printable(e.who.member), status_text(e));
 }
 
+std::string line(const received_port& e)
+{
+    const port_status& s = e.status;
+    return fmt::format("{} port {}: {}", printable(e.gateway), printable(s.port), port_text(s));
+}
+
+std::string line(const received_device& e)
+{
+    const device_status& s = e.status;
+    return fmt::format("{} device {} on {}: {}", printable(e.gateway), printable(s.device), printable(s.port),
+                       device_text(s));
+}
+
+std::string line(const received_event& e)
+{
+    return fmt::format("{} {} {} {} {}: {}", iso_time(e.when), printable(e.gateway), to_string(e.level),
+                       printable(e.code), printable(e.subject), printable(e.text));
+}
+
 std::string line(const received_message& e)
 {
     const auto& v = e.value;
@@ -50,6 +69,16 @@ std::string line(const gone_block& e)
 std::string line(const gone_point& e)
 {
     return fmt::format("- {} {} gone: {}", printable(e.gateway), printable(e.name), to_string(e.reason));
+}
+
+std::string line(const gone_port& e)
+{
+    return fmt::format("- {} port {} gone: {}", printable(e.gateway), printable(e.port), to_string(e.reason));
+}
+
+std::string line(const gone_device& e)
+{
+    return fmt::format("- {} device {} gone: {}", printable(e.gateway), printable(e.device), to_string(e.reason));
 }
 
 std::string line(const gone_gateway& e)
@@ -161,6 +190,21 @@ std::string register_text(const std::string& area, std::uint32_t first, std::uin
 std::string status_text(const received_status& s)
 {
     return fmt::format("{}, routes {}/{} up", to_string(s.status.role), s.status.routes_up, s.status.routes_total);
+}
+
+std::string port_text(const port_status& s)
+{
+    return fmt::format("{} since {}, {} frames in, {} out, {} errors, {} reopens{}", to_string(s.state),
+                       iso_time(s.since), s.rx_frames, s.tx_frames, s.errors, s.reopens,
+                       s.detail.empty() ? "" : " (" + printable(s.detail) + ")");
+}
+
+std::string device_text(const device_status& s)
+{
+    const auto ms = [](std::uint32_t us) { return us == 0 ? "-" : fmt::format("{:.1f} ms", us / 1000.0); };
+    return fmt::format("{} since {}, {} requests, {} timeouts, {} exceptions, answers in {}, cycle {}{}",
+                       to_string(s.state), iso_time(s.since), s.requests, s.timeouts, s.exceptions, ms(s.rtt_us),
+                       ms(s.cycle_us), s.detail.empty() ? "" : " (" + printable(s.detail) + ")");
 }
 
 std::string_view to_string(gone_reason reason) { return reason == gone_reason::disposed ? "disposed" : "writer lost"; }

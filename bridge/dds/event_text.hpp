@@ -22,6 +22,8 @@ std::string value_text(const received_point& p);  // "21.5 Cel", "on", "-" when 
 
 std::string register_text(const std::string& area, std::uint32_t first, std::uint32_t count);  // "holding 100..103"
 std::string status_text(const received_status& s);                                             // "solo, routes 3/4 up"
+std::string port_text(const port_status& s);
+std::string device_text(const device_status& s);
 std::string_view to_string(gone_reason reason);
 std::string_view to_string(message_direction way);
 std::string_view to_string(point_kind kind);

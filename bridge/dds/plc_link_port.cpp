@@ -16,7 +16,7 @@
 namespace plcgw {
 namespace {
 
-constexpr auto topic_name = "plcgw/v1/PlcLinkArea";
+constexpr auto link_topic = "plcgw/v1/PlcLinkArea";
 constexpr std::size_t most_news = 1000;  // a writer of made-up names must not keep the loop busy
 
 // Runs on Cyclone's threads with its locks held: one write and nothing else.
@@ -132,7 +132,7 @@ dds_result<plc_link_port> plc_link_port::create(const dds_settings& settings, du
     const dds_entity_t subscriber = dds_create_subscriber(parent, partition.get(), nullptr);
     if (subscriber < 0)
         return creation_error("DDS subscriber", subscriber, log.text());
-    const dds_entity_t topic = dds_create_topic(parent, &plcgw_v1_PlcLinkArea_desc, topic_name, nullptr, nullptr);
+    const dds_entity_t topic = dds_create_topic(parent, &plcgw_v1_PlcLinkArea_desc, link_topic, nullptr, nullptr);
     if (topic < 0)
         return creation_error("DDS topic PlcLinkArea", topic, log.text());
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(

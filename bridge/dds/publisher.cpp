@@ -1,59 +1,11 @@
 #include "bridge/dds/publisher.hpp"
 
-#include "bridge/dds/bounded_string.hpp"
-#include "bridge/dds/domain.hpp"
 #include "bridge/dds/log_capture.hpp"
-#include "bridge/dds/quality_code.hpp"
-#include "messages.h"
-#include "registers.h"
+#include "bridge/dds/publisher_state.hpp"
 
-#include <dds/dds.h>
-
-#include <map>
-#include <tuple>
-#include <unordered_map>
+#include <fmt/format.h>
 
 namespace plcgw {
-namespace {
-
-static_assert(static_cast<int>(point_kind::none) == plcgw_v1_KIND_NONE);
-static_assert(static_cast<int>(point_kind::boolean) == plcgw_v1_KIND_BOOLEAN);
-static_assert(static_cast<int>(point_kind::integer) == plcgw_v1_KIND_INTEGER);
-static_assert(static_cast<int>(point_kind::real) == plcgw_v1_KIND_REAL);
-static_assert(static_cast<int>(point_kind::text) == plcgw_v1_KIND_TEXT);
-
-using instance_key = std::tuple<std::string, std::string, std::uint32_t>;
-
-qos_ptr writer_qos(qos_ptr qos)
-{
-    // Fast DDS 2.x knows XCDR1 only. Values stay when the gateway ends: it did not dispose of the registers.
-    const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;
-    dds_qset_data_representation(qos.get(), 1, &xcdr1);
-    dds_qset_writer_data_lifecycle(qos.get(), false);
-    return qos;
-}
-
-}  // namespace
-
-struct dds_publisher::state {
-    dds_identity who;
-    std::unique_ptr<dds_participant> participant;
-    dds_entity_t blocks{};    // writer of RegisterBlock
-    dds_entity_t points{};    // writer of Point
-    dds_entity_t statuses{};  // writer of GatewayStatus
-    dds_entity_t messages{};  // writer of SerialMessage
-    std::map<instance_key, std::uint64_t, std::less<>> sequence;
-    std::map<std::string, std::uint64_t> messages_of;  // each line
-    std::unordered_map<std::string, std::uint64_t> points_of;
-    std::uint64_t beat = 0;
-    std::uint64_t published = 0;
-    std::uint64_t drops = 0;
-    dds_return_t last_error = DDS_RETCODE_OK;
-
-    plcgw_v1_RegisterBlock keyed(const sample& s) const;
-    void count(dds_return_t written);
-};
-
 dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dds_identity who)
 {
     auto participant = dds_participant::open(settings);
@@ -61,6 +13,7 @@ dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dd
         return participant.error();
 
     auto made = std::make_unique<state>();
+    made->settings = settings;
     made->who = std::move(who);
     made->participant = std::move(*participant);
     const dds_entity_t parent = made->participant->entity();
@@ -69,23 +22,18 @@ dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dd
     const dds_entity_t publisher = dds_create_publisher(parent, partition_qos(settings).get(), nullptr);
     if (publisher < 0)
         return creation_error("DDS publisher", publisher, log.text());
-    const auto create_writer = [&](const dds_topic_descriptor_t& type, const char* name, qos_ptr qos) {
-        const dds_entity_t topic = dds_create_topic(parent, &type, name, nullptr, nullptr);
-        return topic < 0 ? topic : dds_create_writer(publisher, topic, writer_qos(std::move(qos)).get(), nullptr);
-    };
-    // First: who hears the registers does not miss a message from then on.
-    made->messages = create_writer(plcgw_v1_SerialMessage_desc, serial_message_topic, event_qos());
-    if (made->messages < 0)
-        return creation_error("DDS writer of SerialMessage", made->messages, log.text());
-    made->blocks = create_writer(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
-    if (made->blocks < 0)
-        return creation_error("DDS writer of RegisterBlock", made->blocks, log.text());
-    made->points = create_writer(plcgw_v1_Point_desc, point_topic, state_qos());
-    if (made->points < 0)
-        return creation_error("DDS writer of Point", made->points, log.text());
-    made->statuses = create_writer(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
-    if (made->statuses < 0)
-        return creation_error("DDS writer of GatewayStatus", made->statuses, log.text());
+    // Events first: who hears the state does not miss one from then on.
+    for (std::size_t i = 0; i < dds_topics; ++i) {
+        const auto which = static_cast<dds_topic>(i);
+        if (!settings.topic(which).enabled)
+            continue;
+        dds_entity_t made_now = dds_create_topic(parent, &type_of(which), topic_name(which), nullptr, nullptr);
+        if (made_now >= 0)
+            made_now = dds_create_writer(publisher, made_now, writer_qos(settings, which).get(), nullptr);
+        if (made_now < 0)
+            return creation_error(fmt::format("DDS writer of {}", to_string(which)), made_now, log.text());
+        made->writers[i] = made_now;
+    }
     return dds_publisher(std::move(made));
 }
 
@@ -94,104 +42,19 @@ dds_publisher::dds_publisher(dds_publisher&&) noexcept = default;
 dds_publisher& dds_publisher::operator=(dds_publisher&&) noexcept = default;
 dds_publisher::~dds_publisher() = default;
 
-plcgw_v1_RegisterBlock dds_publisher::state::keyed(const sample& s) const
+std::vector<std::string> dds_publisher::take_refusals()
 {
-    plcgw_v1_RegisterBlock block{};
-    fill_string(block.gateway, who.gateway);
-    fill_string(block.route, s.route);
-    fill_string(block.area, s.area);
-    block.first = s.first;
-    return block;
-}
-
-void dds_publisher::state::count(dds_return_t written)
-{
-    if (written == DDS_RETCODE_OK) {
-        ++published;
-        return;
+    std::vector<std::string> news;
+    for (std::size_t i = 0; i < dds_topics; ++i) {
+        dds_offered_incompatible_qos_status_t status{};
+        if (state_->writers[i] == 0 || dds_get_offered_incompatible_qos_status(state_->writers[i], &status) != 0 ||
+            status.total_count == state_->refused[i])
+            continue;
+        state_->refused[i] = status.total_count;
+        news.push_back(fmt::format("a reader of {} asks for another {}", topic_name(static_cast<dds_topic>(i)),
+                                   policy_name(status.last_policy_id)));
     }
-    ++drops;
-    last_error = written;
-}
-
-void dds_publisher::publish(const sample& s)
-{
-    auto instance = state_->sequence.find(std::tie(s.route, s.area, s.first));
-    if (instance == state_->sequence.end())
-        instance = state_->sequence.emplace(instance_key(s.route, s.area, s.first), 0).first;
-
-    plcgw_v1_RegisterBlock block = state_->keyed(s);
-    fill_string(block.member, state_->who.member);
-    block.seq = ++instance->second;
-    block.source_ns = static_cast<std::int64_t>(s.source);
-    block.quality = quality_code(s.state);
-    block.format = s.format == sample_format::bits ? plcgw_v1_FORMAT_BITS : plcgw_v1_FORMAT_WORDS;
-    block.count = s.count;
-    block.words._length = block.words._maximum = static_cast<std::uint32_t>(s.words.size());
-    block.words._buffer = const_cast<std::uint16_t*>(s.words.data());  // dds_write only reads it
-    state_->count(dds_write(state_->blocks, &block));
-}
-
-void dds_publisher::publish(const point_sample& point)
-{
-    plcgw_v1_Point out{};
-    fill_string(out.gateway, state_->who.gateway);
-    fill_string(out.name, point.name);
-    fill_string(out.member, state_->who.member);
-    out.seq = ++state_->points_of[std::string(point.name)];
-    out.source_ns = static_cast<std::int64_t>(point.source);
-    out.quality = quality_code(point.state);
-    out.kind = static_cast<std::uint8_t>(point.value.kind);
-    out.real = point.value.real;
-    out.integer = point.value.integer;
-    fill_string(out.text, point.value.text);
-    fill_string(out.unit, point.unit);
-    state_->count(dds_write(state_->points, &out));
-}
-
-void dds_publisher::publish(const gateway_status& status)
-{
-    plcgw_v1_GatewayStatus out{};
-    fill_string(out.gateway, state_->who.gateway);
-    fill_string(out.member, state_->who.member);
-    out.role = static_cast<std::uint8_t>(status.role);
-    out.strength = status.strength;
-    out.started_ns = static_cast<std::int64_t>(status.started);
-    out.beat = ++state_->beat;
-    out.routes_up = status.routes_up;
-    out.routes_total = status.routes_total;
-    fill_string(out.version, state_->who.version);
-    fill_string(out.config_hash, state_->who.config_hash);
-    state_->count(dds_write(state_->statuses, &out));
-}
-
-void dds_publisher::publish(const serial_message& message)
-{
-    plcgw_v1_SerialMessage out{};
-    fill_string(out.gateway, state_->who.gateway);
-    fill_string(out.member, state_->who.member);
-    fill_string(out.line, message.line);
-    out.seq = ++state_->messages_of[message.line];
-    out.source_ns = static_cast<std::int64_t>(message.when);
-    out.way = message.way == message_direction::sent ? plcgw_v1_MESSAGE_SENT : plcgw_v1_MESSAGE_RECEIVED;
-    fill_string(out.name, message.name);
-    fill_string(out.reason, message.reason);
-    out.content._length = out.content._maximum = static_cast<std::uint32_t>(message.content.size());
-    out.content._buffer = const_cast<std::uint8_t*>(message.content.data());  // dds_write only reads it
-    state_->count(dds_write(state_->messages, &out));
-}
-
-void dds_publisher::dispose(const sample& key)
-{
-    const auto instance = state_->sequence.find(std::tie(key.route, key.area, key.first));
-    if (instance == state_->sequence.end())
-        return;
-    state_->sequence.erase(instance);
-    const plcgw_v1_RegisterBlock block = state_->keyed(key);
-    dds_return_t written = dds_dispose(state_->blocks, &block);
-    if (written == DDS_RETCODE_OK)
-        written = dds_unregister_instance(state_->blocks, &block);  // frees most of the instance's memory
-    state_->count(written);
+    return news;
 }
 
 std::uint64_t dds_publisher::published() const { return state_->published; }

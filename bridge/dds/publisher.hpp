@@ -1,9 +1,12 @@
-// Publishes registers and the gateway's status as DDS state topics: a late subscriber gets the last value of each.
+// Publishes registers, points and how the gateway does as DDS state topics, of which a late subscriber gets the last
+// value of each, and what happens as events.
 #pragma once
 
 #include "bridge/dds/error.hpp"
 #include "bridge/dds/gateway_status.hpp"
 #include "bridge/dds/settings.hpp"
+#include "bridge/line_event.hpp"
+#include "bridge/link_status.hpp"
 #include "bridge/points/point_table.hpp"
 #include "bridge/sample.hpp"
 #include "bridge/serial_message.hpp"
@@ -11,6 +14,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace plcgw {
 
@@ -28,10 +32,20 @@ public:
     void publish(const sample& s);
     void publish(const point_sample& point);  // its name is the key; 128 bytes
     void publish(const gateway_status& status);
-    void publish(const serial_message& message);  // an event: who subscribes later does not get it
+    void publish(const port_status& status);
+    void publish(const device_status& status);
+    void publish(const serial_message& message);            // who subscribes later does not get it
+    void publish(const line_event& event, wall_time when);  // the same
 
-    // The route of this sample went away: readers see its instance disposed. Only the key is looked at.
+    // The route, point, line or station went away: readers see its instance disposed. Only the key is looked at.
     void dispose(const sample& key);
+    void dispose(const point_sample& key);
+    void dispose(const port_status& key);
+    void dispose(const device_status& key);
+    void dispose_gateway();  // this member
+
+    // Readers that could not match since the last call, because they ask for another QoS: a sentence for each topic.
+    std::vector<std::string> take_refusals();
 
     std::uint64_t published() const;
     std::uint64_t drops() const;     // what could not be written, e.g. more than 1024 words

@@ -42,15 +42,18 @@ std::string cyclone_xml(const dds_settings& settings)
 
     // GenerateKeyhash: or Fast DDS attributes a dispose to the wrong instance. MaxAutoParticipantIndex: by default the
     // 11th process on a host fails. WriterLingerDuration: or deleting a writer waits up to 1 s for a stopped reader.
+    // MultipleReceiveThreads: or deleting a domain waits for ever when its address is gone, since such a thread is
+    // ended by a packet to ourselves.
     return fmt::format(R"(<CycloneDDS><Domain id="any">)"
                        R"(<General>{}<AllowMulticast>{}</AllowMulticast></General>)"
                        R"(<Discovery><ParticipantIndex>auto</ParticipantIndex>)"
                        R"(<MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>)"
-                       R"(<LeaseDuration>5s</LeaseDuration>{}</Discovery>)"
+                       R"(<LeaseDuration>{}ms</LeaseDuration>{}</Discovery>)"
                        R"(<Internal><GenerateKeyhash>true</GenerateKeyhash>)"
+                       R"(<MultipleReceiveThreads>false</MultipleReceiveThreads>)"
                        R"(<WriterLingerDuration>0s</WriterLingerDuration></Internal>)"
                        R"(</Domain></CycloneDDS>)",
-                       interfaces, loopback ? "false" : "default", peers);
+                       interfaces, loopback ? "false" : "default", settings.lease.count(), peers);
 }
 
 }  // namespace plcgw

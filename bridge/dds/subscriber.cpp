@@ -1,11 +1,8 @@
 #include "bridge/dds/subscriber.hpp"
 
-#include "bridge/dds/bounded_string.hpp"
 #include "bridge/dds/domain.hpp"
 #include "bridge/dds/log_capture.hpp"
-#include "bridge/dds/quality_code.hpp"
-#include "messages.h"
-#include "registers.h"
+#include "bridge/dds/received.hpp"
 
 #include <dds/dds.h>
 
@@ -26,87 +23,7 @@ void wake(int descriptor)
     [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
 }
 
-// More than a writer keeps: what came while we were drawing is still there.
-qos_ptr message_reader_qos()
-{
-    constexpr std::int32_t kept = 8192;
-    qos_ptr qos = event_qos();
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept);
-    return qos;
-}
-
 void on_data(dds_entity_t, void* descriptor) { wake(*static_cast<int*>(descriptor)); }
-
-std::string text(std::span<const char> in) { return std::string(read_string(in)); }
-
-dds_event received(const plcgw_v1_RegisterBlock& in)
-{
-    received_block out{text(in.gateway), text(in.member), in.seq, in.quality, {}};
-    out.value.route = text(in.route);
-    out.value.area = text(in.area);
-    out.value.first = in.first;
-    out.value.format = in.format == plcgw_v1_FORMAT_BITS ? sample_format::bits : sample_format::words;
-    out.value.count = in.count;
-    out.value.words.assign(in.words._buffer, in.words._buffer + in.words._length);
-    out.value.state = quality_from_code(in.quality);
-    out.value.source = wall_time{in.source_ns};
-    return out;
-}
-
-dds_event received(const plcgw_v1_Point& in)
-{
-    received_point out{text(in.gateway), text(in.member), in.seq, in.quality, text(in.name), {}, {}, {}, {}};
-    const bool known = in.kind <= plcgw_v1_KIND_TEXT;
-    out.value = {known ? point_kind{in.kind} : point_kind::none, in.real, in.integer, text(in.text)};
-    out.state = quality_from_code(in.quality);
-    out.source = wall_time{in.source_ns};
-    out.unit = text(in.unit);
-    return out;
-}
-
-dds_event received(const plcgw_v1_GatewayStatus& in)
-{
-    received_status out;
-    out.who = {text(in.gateway), text(in.member), text(in.version), text(in.config_hash)};
-    out.status.role = gateway_role{in.role};
-    out.status.strength = in.strength;
-    out.status.started = wall_time{in.started_ns};
-    out.status.routes_up = in.routes_up;
-    out.status.routes_total = in.routes_total;
-    out.beat = in.beat;
-    return out;
-}
-
-dds_event received(const plcgw_v1_SerialMessage& in)
-{
-    received_message out{text(in.gateway), text(in.member), in.seq, {}};
-    out.value.line = text(in.line);
-    out.value.way = in.way == plcgw_v1_MESSAGE_SENT ? message_direction::sent : message_direction::received;
-    out.value.name = text(in.name);
-    out.value.reason = text(in.reason);
-    out.value.content.assign(in.content._buffer, in.content._buffer + in.content._length);
-    out.value.when = wall_time{in.source_ns};
-    return out;
-}
-
-dds_event gone(const plcgw_v1_RegisterBlock& key, gone_reason reason)
-{
-    return gone_block{text(key.gateway), text(key.route), text(key.area), key.first, reason};
-}
-
-dds_event gone(const plcgw_v1_Point& key, gone_reason reason)
-{
-    return gone_point{text(key.gateway), text(key.name), reason};
-}
-
-dds_event gone(const plcgw_v1_GatewayStatus& key, gone_reason reason)
-{
-    return gone_gateway{text(key.gateway), text(key.member), reason};
-}
-
-// An event has no instance that could go away.
-template <class Topic>
-constexpr bool is_state = !std::is_same_v<Topic, plcgw_v1_SerialMessage>;
 
 // One loan of Cyclone; false when the reader is empty.
 template <class Topic>
@@ -125,7 +42,7 @@ bool take_some(dds_entity_t reader, std::vector<dds_event>& events)
         if (info.valid_data)
             events.push_back(received(in));
         // The last value and the end of its writer can come as one sample.
-        if constexpr (is_state<Topic>) {
+        if constexpr (requires { gone(in, gone_reason{}); }) {
             if (info.instance_state != DDS_ALIVE_INSTANCE_STATE && info.sample_rank == 0)
                 events.push_back(gone(in, info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE
                                               ? gone_reason::disposed
@@ -136,15 +53,26 @@ bool take_some(dds_entity_t reader, std::vector<dds_event>& events)
     return true;
 }
 
+bool take_some(dds_topic which, dds_entity_t reader, std::vector<dds_event>& events)
+{
+    switch (which) {
+    case dds_topic::serial_message: return take_some<plcgw_v1_SerialMessage>(reader, events);
+    case dds_topic::event: return take_some<plcgw_v1_Event>(reader, events);
+    case dds_topic::register_block: return take_some<plcgw_v1_RegisterBlock>(reader, events);
+    case dds_topic::point: return take_some<plcgw_v1_Point>(reader, events);
+    case dds_topic::port_status: return take_some<plcgw_v1_PortStatus>(reader, events);
+    case dds_topic::device_status: return take_some<plcgw_v1_DeviceStatus>(reader, events);
+    case dds_topic::gateway_status: return take_some<plcgw_v1_GatewayStatus>(reader, events);
+    }
+    return false;
+}
+
 }  // namespace
 
 struct dds_subscriber::state {
     int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     std::unique_ptr<dds_participant> participant;
-    dds_entity_t blocks{};    // reader of RegisterBlock
-    dds_entity_t points{};    // reader of Point
-    dds_entity_t statuses{};  // reader of GatewayStatus
-    dds_entity_t messages{};  // reader of SerialMessage
+    std::array<dds_entity_t, dds_topics> readers{};
 
     ~state()
     {
@@ -172,23 +100,16 @@ dds_result<dds_subscriber> dds_subscriber::create(const dds_settings& settings)
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
         dds_create_listener(&made->descriptor), dds_delete_listener);
     dds_lset_data_available(listener.get(), on_data);
-    const auto create_reader = [&](const dds_topic_descriptor_t& type, const char* name, const qos_ptr& qos) {
-        const dds_entity_t topic = dds_create_topic(parent, &type, name, nullptr, nullptr);
-        return topic < 0 ? topic : dds_create_reader(subscriber, topic, qos.get(), listener.get());
-    };
-    // First: who hears the registers does not miss a message from then on.
-    made->messages = create_reader(plcgw_v1_SerialMessage_desc, serial_message_topic, message_reader_qos());
-    if (made->messages < 0)
-        return creation_error("DDS reader of SerialMessage", made->messages, log.text());
-    made->blocks = create_reader(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
-    if (made->blocks < 0)
-        return creation_error("DDS reader of RegisterBlock", made->blocks, log.text());
-    made->points = create_reader(plcgw_v1_Point_desc, point_topic, state_qos());
-    if (made->points < 0)
-        return creation_error("DDS reader of Point", made->points, log.text());
-    made->statuses = create_reader(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
-    if (made->statuses < 0)
-        return creation_error("DDS reader of GatewayStatus", made->statuses, log.text());
+    // Events first: who hears the state does not miss one from then on.
+    for (std::size_t i = 0; i < dds_topics; ++i) {
+        const auto which = static_cast<dds_topic>(i);
+        dds_entity_t made_now = dds_create_topic(parent, &type_of(which), topic_name(which), nullptr, nullptr);
+        if (made_now >= 0)
+            made_now = dds_create_reader(subscriber, made_now, reader_qos(settings, which).get(), listener.get());
+        if (made_now < 0)
+            return creation_error("DDS reader of " + std::string(to_string(which)), made_now, log.text());
+        made->readers[i] = made_now;
+    }
     return dds_subscriber(std::move(made));
 }
 
@@ -207,10 +128,9 @@ std::vector<dds_event> dds_subscriber::take(std::size_t most)
     std::vector<dds_event> events;
     bool more = true;
     while (more && events.size() < most) {
-        const bool statuses = take_some<plcgw_v1_GatewayStatus>(state_->statuses, events);
-        const bool messages = take_some<plcgw_v1_SerialMessage>(state_->messages, events);
-        const bool points = take_some<plcgw_v1_Point>(state_->points, events);
-        more = take_some<plcgw_v1_RegisterBlock>(state_->blocks, events) || points || statuses || messages;
+        more = false;
+        for (std::size_t i = 0; i < dds_topics; ++i)
+            more = take_some(static_cast<dds_topic>(i), state_->readers[i], events) || more;
     }
     if (more)
         wake(state_->descriptor);

@@ -115,7 +115,8 @@ void line_messages::answered(const question& q, const buffer& answer, time_point
 {
     schedule_.finished(q.send);
     if (std::exchange(sends_[q.send].failing, false))
-        note(line_event::severity::info, label("send", sends_[q.send].row.name) + " is answered again");
+        note(line_event::severity::info, "send.answered", sends_[q.send].row.name,
+             label("send", sends_[q.send].row.name) + " is answered again");
     if (q.answer == general_purpose::expect::message)
         take(answer, q.send, now, wall);
     show_status();
@@ -134,7 +135,8 @@ void line_messages::not_answered(std::size_t send, const std::string& why)
     ++unanswered_;
     show_status();
     if (!std::exchange(sends_[send].failing, true))
-        note(line_event::severity::warning, label("send", sends_[send].row.name) + " fails: " + why);
+        note(line_event::severity::warning, "send.failed", sends_[send].row.name,
+             label("send", sends_[send].row.name) + " fails: " + why);
     for (route& each : routes_)
         if (each.brought_by == send)
             each.stands.lose();
@@ -153,7 +155,7 @@ void line_messages::received(result<buffer> what, time_point now, wall_time wall
         each.buffers.add(what);
     if (why != errc::restarted)
         if (const auto dropped = damages_.admit(now))
-            note(line_event::severity::warning,
+            note(line_event::severity::warning, "message.damaged", name(),
                  "line " + name() + ": a message was dropped: " + what.error().message() + and_more(*dropped));
     show_status();
 }
@@ -204,7 +206,7 @@ bool line_messages::read(route& by, const buffer& message, std::optional<std::si
     }
     by.brought_by = answer_to;
     if (by.stands.state() == quality::comm_error || by.stands.state() == quality::stale)
-        note(line_event::severity::info, label("message", by.row.name) + " comes again");
+        note(line_event::severity::info, "message.back", by.row.name, label("message", by.row.name) + " comes again");
     by.stands.renew(now, wall);
     return true;
 }
@@ -213,8 +215,9 @@ void line_messages::refuse(const buffer& message, const std::string& reason, tim
 {
     ++refused_;
     if (const auto dropped = refusals_.admit(now))
-        note(line_event::severity::warning, "line " + name() + ": no pattern takes the message " +
-                                                printable(message, longest_shown) + ": " + reason + and_more(*dropped));
+        note(line_event::severity::warning, "message.refused", name(),
+             "line " + name() + ": no pattern takes the message " + printable(message, longest_shown) + ": " + reason +
+                 and_more(*dropped));
 }
 
 // What GPRECV does, as long as the reader took the message before.
@@ -229,9 +232,9 @@ void line_messages::fill(raw& of, time_point now, wall_time wall)
         if (!size) {
             ++too_long_;
             if (const auto dropped = damages_.admit(now))
-                note(line_event::severity::warning, label("received", of.row.into.name) + ": a message of " +
-                                                        std::to_string(message->size()) + " bytes does not fit into " +
-                                                        std::to_string(area.size()) + " words" + and_more(*dropped));
+                note(line_event::severity::warning, "message.too_long", of.row.into.name,
+                     label("received", of.row.into.name) + ": a message of " + std::to_string(message->size()) +
+                         " bytes does not fit into " + std::to_string(area.size()) + " words" + and_more(*dropped));
             continue;
         }
         put(of.row.into, const_words(area).first(*size));
@@ -250,7 +253,7 @@ void line_messages::look_at_buffers(raw& of)
     const bool lost = (of.buffers.error_code() & general_purpose::receive_error::buffers_full) != 0;
     if (!full || !lost || std::exchange(of.said_full, true))
         return;
-    note(line_event::severity::warning,
+    note(line_event::severity::warning, "message.buffers_full", of.row.into.name,
          label("received", of.row.into.name) + ": all eight buffers are full, messages are lost until " +
              (of.buffers.stopped() ? "the channel is reset" : "the reader clears the ready bit"));
 }

@@ -110,7 +110,10 @@ private:
     void not_answered(std::size_t send, const std::string& why);
     void reset_channel();
     void show_status();
-    void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
+    void note(line_event::severity level, std::string_view code, std::string subject, std::string text)
+    {
+        events_.push_back({level, code, std::move(subject), std::move(text)});
+    }
     std::string label(const char* what, const std::string& name) const;
 
     line_options options_;

@@ -32,8 +32,9 @@ std::vector<sample> line_messages::take_samples(time_point now)
         const quality before = each.stands.state();
         each.stands.age(now, each.row.longest_silence);
         if (each.stands.state() != before)
-            note(line_event::severity::warning, label("message", each.row.name) + " has not come for " +
-                                                    std::to_string(each.row.longest_silence.count() / 1000) + " ms");
+            note(line_event::severity::warning, "message.missing", each.row.name,
+                 label("message", each.row.name) + " has not come for " +
+                     std::to_string(each.row.longest_silence.count() / 1000) + " ms");
         if (each.stands.due(now, options_.longest_silence))
             for (const plc_block& where : each.row.into)
                 samples.push_back(sample_of(where, each.stands));
@@ -131,7 +132,7 @@ void line_messages::reset_channel()
         each.buffers.reset();
         each.said_full = false;
     }
-    note(line_event::severity::info, "line " + name() + ": the channel was reset");
+    note(line_event::severity::info, "line.reset", name(), "line " + name() + ": the channel was reset");
 }
 
 void line_messages::show_status_in(plc_block where) { status_ = std::move(where); }

@@ -22,7 +22,8 @@ std::vector<read_settings> reads_of(const std::vector<station>& stations)
 
 client_line::client_line(std::string name, std::vector<station> stations, const line_options& options)
     : name_(std::move(name)), options_(options), stations_(std::move(stations)), times_(stations_.size()),
-      polls_(reads_of(stations_)), schedule_(stations_.size()), forwards_(options.cache_age)
+      statistics_(stations_.size()), polls_(reads_of(stations_)), schedule_(stations_.size()),
+      forwards_(options.cache_age)
 {
     schedule_.set_parallel(options.parallel);
     for (std::size_t i = 0; i < stations_.size(); ++i) {
@@ -149,6 +150,7 @@ client_line::question client_line::question_of_turn(const schedule::turn& turn, 
 
 bool client_line::attempt_failed(const question& q, const modbus::answer_fault& why)
 {
+    statistics_.unanswered(station_of(q.unit), why.why == errc::timed_out);
     const auto* const forwarded = std::get_if<forward_ticket>(&q.origin);
     if (forwarded != nullptr)
         forwards_.note_fault(*forwarded, why);
@@ -168,6 +170,8 @@ void client_line::answered(const question& q, const station_answer& answer, time
     const health before = schedule_.state_of(station);
     if (response_time && late.count == 0)
         times_[station].add(*response_time);
+    const auto refusal = refusal_in(answer);
+    statistics_.answered(station, refusal ? &refusal->reason : nullptr, wall);
     if (const auto* forwarded = std::get_if<forward_ticket>(&q.origin)) {
         schedule_.forwarded(station, schedule::outcome::answered, now - q.asked_at, now, late, {});
         note_health(station, before, {});
@@ -186,8 +190,8 @@ void client_line::answered(const question& q, const station_answer& answer, time
         return;  // the probe of a station: its values are nobody's
     for (const std::size_t each : q.item.routes)
         routes_[each].answered = true;
-    if (const auto why = refusal_in(answer))
-        refused(q, *why, now, wall);
+    if (refusal)
+        refused(q, *refusal, now, wall);
     else
         served(q, answer, now, wall);
 }
@@ -199,7 +203,8 @@ void client_line::refused(const question& q, const station_refusal& why, time_po
     if (!is_write)
         lesson = polls_.refused(q.item, why, wall, now, schedule_);
     if (!lesson.text.empty())
-        note(line_event::severity::warning, label(stations_[q.item.station]) + " " + lesson.text);
+        note(line_event::severity::warning, "device.limit", subject_of(stations_[q.item.station]),
+             label(stations_[q.item.station]) + " " + lesson.text);
     for (const std::size_t each : q.item.routes) {
         if (!lesson.blames_routes)
             break;
@@ -232,6 +237,8 @@ void client_line::served(const question& q, const station_answer& answer, time_p
         }
         of.content.source = wall;
         of.good_at = now;
+        if (is_read)
+            statistics_.was_read(of.station, each, now);
         ++of.content.answers;
         set_quality(of, quality::good, {});
     }
@@ -311,6 +318,7 @@ void client_line::port_lost(const std::string& why)
     for (row& each : routes_)
         lose(each, why, static_cast<std::uint16_t>(no_answer::no_port));
     forwards_.answer_all(errc::port_absent);
+    statistics_.port_lost(why);
     port_open_ = false;
 }
 
@@ -320,10 +328,11 @@ void client_line::set_quality(row& of, quality state, const std::string& reason,
     if (r.state == quality::substituted && state == quality::comm_error)
         state = r.state;  // still lost
     if (state == quality::device_error && (r.state != state || r.reason != reason))
-        note(line_event::severity::warning,
+        note(line_event::severity::warning, "route.refused", r.name,
              "line " + name_ + ", route " + r.name + ": " + label(stations_[of.station]) + " refuses: " + reason);
     if (r.state == quality::device_error && state == quality::good)
-        note(line_event::severity::info, "line " + name_ + ", route " + r.name + ": accepted again");
+        note(line_event::severity::info, "route.accepted", r.name,
+             "line " + name_ + ", route " + r.name + ": accepted again");
     of.changed = of.changed || r.state != state;
     r.state = state;
     r.reason = reason;
@@ -334,8 +343,9 @@ void client_line::note_health(std::size_t index, health before, const std::strin
 {
     const station& of = stations_[index];
     const health after = schedule_.state_of(index);
+    statistics_.is(index, after, reason);
     if (before == health::down && after == health::healthy)
-        note(line_event::severity::info, label(of) + " answers again");
+        note(line_event::severity::info, "device.up", subject_of(of), label(of) + " answers again");
     if (before == health::down || after != health::down)
         return;
     bool has_routes = false;
@@ -348,10 +358,15 @@ void client_line::note_health(std::size_t index, health before, const std::strin
         replaced = replaced || each.content.state == quality::substituted;
     }
     const std::string values = replaced ? "kept or replaced as on_loss says" : "kept";
-    note(line_event::severity::warning,
+    note(line_event::severity::warning, "device.down", subject_of(of),
          label(of) + " does not answer (" + reason + "): " +
              (has_routes ? "its values are " + values + ", it is probed from now on"
                          : "requests to it fail at once, until one that is let through now and then is answered"));
+}
+
+std::string client_line::subject_of(const station& of) const
+{
+    return of.name.empty() ? name_ + ", unit " + std::to_string(number(of.unit)) : of.name;
 }
 
 std::string client_line::label(const station& of) const

@@ -2,10 +2,12 @@
 // and quality.
 #pragma once
 
+#include "bridge/line_event.hpp"
 #include "bridge/routes/forward_queue.hpp"
 #include "bridge/routes/line_polls.hpp"
 #include "bridge/routes/response_times.hpp"
 #include "bridge/routes/route.hpp"
+#include "bridge/routes/station_statistics.hpp"
 #include "bridge/scan/station_scan.hpp"
 #include "protocols/modbus/serial_transaction.hpp"
 
@@ -28,12 +30,6 @@ struct line_options {
     modbus::serial_options timing{};  // of requests to units that are no station of this line
     duration cache_age{};             // forwarded reads are answered with values that are not older; 0: never
     unsigned parallel = 1;            // questions under way at a time
-};
-
-// For the log: a station or a route that changed its state.
-struct line_event {
-    enum class severity : std::uint8_t { info, warning } level{};
-    std::string text;
 };
 
 class client_line {
@@ -123,7 +119,11 @@ public:
     const station_limits& limits_of(std::size_t station) const { return polls_.limits_of(station); }
     bool take_learned() { return polls_.take_learned(); }  // since the last call
 
-    void port_opened() { port_open_ = true; }
+    void port_opened()
+    {
+        port_open_ = true;
+        statistics_.port_opened();
+    }
     void port_lost(const std::string& why);  // values stay, qualities change
 
     // Somebody drained this change of a memory. True when a route is due to write it to its station.
@@ -159,6 +159,12 @@ public:
     std::size_t stations() const { return stations_.size(); }  // without a name: asked by others only
     const station& station_numbered(std::size_t station) const { return stations_[station]; }
     health health_of(std::size_t station) const { return schedule_.state_of(station); }
+
+    // Of the stations of the configuration, numbered as they were given; all but `since`.
+    std::size_t stations_total() const { return statistics_.size(); }
+    device_status device_of(std::size_t station) const;
+    link_state device_state(std::size_t station) const { return statistics_.state_of(station); }
+    bool take_device_changes() { return statistics_.take_changed(); }  // of a state, since the last call
 
     // The worst quality and the oldest source among the read routes that fill these devices; good when there are none.
     void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;
@@ -224,13 +230,18 @@ private:
     void doubt_delimiter(station_number unit);
     void lose(row& of, const std::string& why, std::uint16_t code);
     void age(row& of, time_point now);
-    void note(line_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
+    void note(line_event::severity level, std::string_view code, std::string subject, std::string text)
+    {
+        events_.push_back({level, code, std::move(subject), std::move(text)});
+    }
+    std::string subject_of(const station& of) const;
     std::string label(const station& of) const;
 
     std::string name_;
     line_options options_;
     std::vector<station> stations_;  // numbered like the schedule's; behind those of the routes any that was asked
     std::vector<response_times> times_;
+    station_statistics statistics_;
     std::vector<row> routes_;
     line_polls polls_;  // numbered like the schedule's items
     schedule schedule_;

@@ -82,11 +82,21 @@ void client_line::note_load(time_point now)
         return;
     const auto percent = [](double of) { return std::to_string(static_cast<int>(of * 100 + 0.5)); };
     if (is_over)
-        note(line_event::severity::warning, "line " + name_ + " is overloaded: its reads need " +
-                                                percent(schedule_.wanted()) + " % of it, so that all periods are " +
-                                                percent(schedule_.stretch()) + " % of what was asked for");
+        note(line_event::severity::warning, "line.overload", name_,
+             "line " + name_ + " is overloaded: its reads need " + percent(schedule_.wanted()) +
+                 " % of it, so that all periods are " + percent(schedule_.stretch()) + " % of what was asked for");
     else
-        note(line_event::severity::info, "line " + name_ + " keeps its periods again");
+        note(line_event::severity::info, "line.relieved", name_, "line " + name_ + " keeps its periods again");
+}
+
+device_status client_line::device_of(std::size_t station) const
+{
+    device_status status = statistics_.status_of(station);
+    status.device = stations_[station].name;
+    status.port = name_;
+    if (const auto mean = times_[station].mean())
+        status.rtt_us = static_cast<std::uint32_t>(std::clamp<std::int64_t>(mean->count(), 0, UINT32_MAX));
+    return status;
 }
 
 }  // namespace plcgw

@@ -14,8 +14,10 @@ std::size_t client_line::add_route(route r, std::size_t station, duration period
     const bool both = r.way == direction::read_write;
     if (both)
         r.way = direction::read;
-    if (reads(r.way))
+    if (reads(r.way)) {
         polls_.add_read(station, {r.there, r.count, period});
+        statistics_.add_read(station, index, period);
+    }
     else
         polls_.add_write(station);
     r.words.resize((bits_of(r) + 15) / 16);

@@ -38,7 +38,7 @@ void upstream_guards::written(time_point now)
             continue;
         each.until = now + each.content.longest_silence;
         if (std::exchange(each.lost, false))
-            events_.push_back({line_event::severity::info,
+            events_.push_back({line_event::severity::info, "upstream.back", each.content.name,
                                "route " + each.content.name + ": its devices are written again, no more safe values"});
     }
 }
@@ -50,7 +50,7 @@ void upstream_guards::look(time_point now)
             continue;
         each.lost = true;
         put_safe(each.content);
-        events_.push_back({line_event::severity::warning,
+        events_.push_back({line_event::severity::warning, "upstream.silent", each.content.name,
                            "route " + each.content.name + ": nobody wrote its devices for " +
                                seconds(each.content.longest_silence) + ", the safe values go to the station"});
     }

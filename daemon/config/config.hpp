@@ -8,6 +8,7 @@
 #include "daemon/config/mewtocol_config.hpp"
 #include "daemon/config/plc_link_config.hpp"
 #include "daemon/config/point_config.hpp"
+#include "daemon/config/topics_config.hpp"
 #include "protocols/serial_timing.hpp"
 
 #include <chrono>
@@ -150,9 +151,11 @@ struct block_config {
 };
 
 struct dds_config {
-    dds_settings settings;
+    dds_settings settings;  // its topics are those below, when the file was read
+    topics_config topics;
     std::string member;  // empty: the host's name
     milliseconds longest_silence{1000};
+    milliseconds status_silence{10'000};  // of ports and devices
     std::vector<block_config> blocks;
 };
 

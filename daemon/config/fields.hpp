@@ -3,6 +3,7 @@
 #pragma once
 
 #include "daemon/config/config.hpp"
+#include "daemon/config/dds_fields.hpp"
 #include "daemon/config/message_fields.hpp"
 #include "daemon/config/mewtocol_fields.hpp"
 #include "daemon/config/point_fields.hpp"
@@ -229,29 +230,6 @@ void describe(Visitor& v, tcp_server_config& c)
     v.optional("max_outstanding", c.max_outstanding,
                "Forwarded requests of one client under way at a time; then it is not read until one is answered",
                range{1, 256});
-}
-
-template <class Visitor>
-void describe(Visitor& v, block_config& c)
-{
-    v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
-    v.required("device", c.device, "First device", text{2, 16});
-    v.optional("count", c.count, "Registers, or bits of a bit device", range{1, 1024});
-}
-
-template <class Visitor>
-void describe(Visitor& v, dds_config& c)
-{
-    v.optional("enabled", c.settings.enabled, "Publish registers as DDS topics");
-    v.optional("domain", c.settings.domain, "DDS domain id", range{0, 230});
-    v.optional("interface", c.settings.interface, "Network interface; lo = this host only, empty = the first suitable",
-               text{0, 64});
-    v.optional("peers", c.settings.peers, "Addresses of other hosts where multicast does not reach", text{1});
-    v.optional("partition", c.settings.partition, "DDS partition, for example a plant", text{});
-    v.optional("member", c.member, "This process among those of the same gateway; empty: the host's name", text{0, 64});
-    v.optional("longest_silence_ms", c.longest_silence, "Unchanged registers are published again after this time",
-               range{10, 3'600'000});
-    v.optional("blocks", c.blocks, "Devices of a PLC that are published as well, whoever writes them");
 }
 
 template <class Visitor>

@@ -40,6 +40,10 @@ loaded load_text(std::string_view text, const std::filesystem::path& folder)
     reader root(file, file.value, "", result.found);
     describe(root, result.config);
     root.report_unknown_keys();
+    dds_config& dds = result.config.dds;
+    dds.settings.topics = dds.topics.all();
+    if (!dds.settings.cyclone_config.empty())
+        dds.settings.cyclone_config = (folder / dds.settings.cyclone_config).string();
     check(result.config, file, result.folder, result.found);
     std::stable_sort(result.found.begin(), result.found.end(),
                      [](const mistake& a, const mistake& b) { return a.line < b.line; });

@@ -71,6 +71,18 @@ private:
         complain_choice(from, at, names);
     }
 
+    template <class Enum, std::size_t N, std::size_t M>
+    void read(const nlohmann::json& from, const std::string& at, Enum& out, const choice<Enum> (&choices)[N],
+              const refusal (&refused)[M])
+    {
+        for (const refusal& each : refused)
+            if (from.is_string() && from.get_ref<const std::string&>() == each.name) {
+                complain(at, "is \"" + std::string(each.name) + "\", which is not safe: " + std::string(each.why));
+                return;
+            }
+        read(from, at, out, choices);
+    }
+
     // Lines of text: an array of strings.
     void read(const nlohmann::json& from, const std::string& at, std::vector<std::string>& out, const text& rule);
 

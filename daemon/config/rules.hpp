@@ -26,6 +26,12 @@ struct text {
 
 inline constexpr text name_rule{1, 64};
 
+// A value that others know and that does harm here: why, and what to do.
+struct refusal {
+    std::string_view name;
+    std::string_view why;
+};
+
 template <class Enum>
 struct choice {
     std::string_view name;

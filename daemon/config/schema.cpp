@@ -83,6 +83,12 @@ json value_schema(Enum value, const choice<Enum> (&choices)[N])
     return s;
 }
 
+template <class Enum, std::size_t N, std::size_t M>
+json value_schema(Enum value, const choice<Enum> (&choices)[N], const refusal (&)[M])
+{
+    return value_schema(value, choices);
+}
+
 json value_schema(const std::vector<std::string>&, const text& rule)
 {
     json item = value_schema(std::string{}, rule);

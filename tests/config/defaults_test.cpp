@@ -59,6 +59,11 @@ struct value_writer {
             if (each.value == value)
                 to = each.name;
     }
+    template <class Enum, std::size_t N, std::size_t M>
+    static void put(json& to, Enum value, const choice<Enum> (&choices)[N], const refusal (&)[M])
+    {
+        put(to, value, choices);
+    }
     template <class Struct>
     static void put(json& to, std::vector<Struct>& rows)
     {

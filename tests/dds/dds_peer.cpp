@@ -57,12 +57,12 @@ int main(int argc, char** argv)
     if (args[0] == "publish")
         return publish(settings, args[2], static_cast<unsigned>(std::stoul(args[3])));
 
-    watch_options options{.dds = settings, .json = args[2] == "json", .count = {}, .timeout = {}, .filters = {}};
+    watch_options options{.dds = settings, .json = args[2] == "json", .count = {}, .timeout = {}, .filter = {}};
     if (args[3] != "0")
         options.count = static_cast<unsigned>(std::stoul(args[3]));
     if (args.size() > 4 && args[4] != "0")
         options.timeout = std::chrono::milliseconds(std::stoul(args[4]));
     if (args.size() > 5)
-        options.filters.assign(args.begin() + 5, args.end());
+        options.filter.names.assign(args.begin() + 5, args.end());
     return watch(options);
 }

@@ -117,3 +117,60 @@ TEST_CASE("event table: fits the terminal")
             CHECK(line.text.size() <= width);
     CHECK(table.lines(t0, 80, 0).empty());
 }
+
+TEST_CASE("event table: ports and devices with their states, and the last events as lines")
+{
+    event_table table;
+    const port_status bus{"bus 1", link_state::up, t0, 10, 11, 100, 110, 2, 1, "bad checksum"};
+    const device_status pump{"pump", "bus 1", link_state::up, t0, t0, 11, 1, 0, 12'300, 100'000, ""};
+    CHECK(table.apply(received_port{"gw", "m1", bus}, t0));
+    CHECK(table.apply(received_device{"gw", "m1", pump}, t0));
+    port_status moved = bus;
+    moved.rx_frames = 99;
+    CHECK_FALSE(table.apply(received_port{"gw", "m1", moved}, t0));  // a counter is no news
+    device_status down = pump;
+    down.state = link_state::down;
+    down.detail = "does not answer\x1b";
+    CHECK(table.apply(received_device{"gw", "m1", down}, t0));
+    for (std::uint64_t i = 1; i <= 20; ++i)
+        CHECK(table.apply(received_event{"gw", "m1", i, t0, line_event::severity::warning, "device.down", "pump",
+                                         "number " + std::to_string(i)},
+                          t0));
+
+    const auto lines = table.lines(after(5), 200, 100);
+    const auto at = [&](const std::string& part) {
+        for (const table_line& each : lines)
+            if (each.text.find(part) != std::string::npos)
+                return each;
+        return table_line{};
+    };
+    CHECK(at("99/11").text == "  bus 1                99/11              up             5.0 s  2, last: bad checksum");
+    CHECK(at("99/11").style == line_style::plain);
+    CHECK(at("does not answer").text ==
+          "! pump                 bus 1              down           5.0 s  12.3/100.0, 1/11: does not answer?");
+    CHECK(at("does not answer").style == line_style::error);
+    CHECK(at("number 20").text == "  2023-11-14T22:13:20.000Z gw warning device.down pump: number 20");
+    CHECK(at("number 12").text.empty());
+
+    CHECK(table.apply(gone_device{"gw", "pump", gone_reason::writer_lost}, t0));
+    CHECK(table.apply(gone_port{"gw", "bus 1", gone_reason::disposed}, t0));
+    CHECK_FALSE(table.apply(gone_port{"gw", "bus 1", gone_reason::disposed}, t0));
+    bool lost = false;
+    for (const table_line& each : table.lines(after(5), 200, 100)) {
+        CHECK(each.text.find("99/11") == std::string::npos);
+        lost = lost || each.text.starts_with("x pump");
+    }
+    CHECK(lost);
+}
+
+TEST_CASE("event text: ports, devices and events as lines")
+{
+    const port_status bus{"bus 1", link_state::down, t0, 1, 2, 3, 4, 5, 6, "unplugged"};
+    CHECK(line_of(received_port{"gw", "m1", bus}) ==
+          "gw port bus 1: down since 2023-11-14T22:13:20.000Z, 1 frames in, 2 out, 5 errors, 6 reopens (unplugged)");
+    const device_status pump{"pump", "bus 1", link_state::degraded, t0, t0, 7, 8, 9, 0, 100'000, ""};
+    CHECK(line_of(received_device{"gw", "m1", pump}) ==
+          "gw device pump on bus 1: degraded since 2023-11-14T22:13:20.000Z, 7 requests, 8 timeouts, 9 exceptions, "
+          "answers in -, cycle 100.0 ms");
+    CHECK(line_of(gone_device{"gw", "pump", gone_reason::disposed}) == "- gw device pump gone: disposed");
+}

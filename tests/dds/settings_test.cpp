@@ -23,7 +23,8 @@ TEST_CASE("dds settings: loopback is unicast to this host, with key hashes and r
     CHECK(has(xml, "<GenerateKeyhash>true</GenerateKeyhash>"));
     CHECK(has(xml, "<ParticipantIndex>auto</ParticipantIndex>"));
     CHECK(has(xml, "<MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>"));
-    CHECK(has(xml, "<LeaseDuration>5s</LeaseDuration>"));
+    CHECK(has(xml, "<LeaseDuration>5000ms</LeaseDuration>"));
+    CHECK(has(xml, "<MultipleReceiveThreads>false</MultipleReceiveThreads>"));
     CHECK(has(xml, "<WriterLingerDuration>0s</WriterLingerDuration>"));
 }
 

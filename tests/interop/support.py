@@ -141,6 +141,8 @@ class Watch(Program):
         self.heard = []    # messages of serial lines
         self.statuses = []
         self.points = {}   # the latest sample of each, by name
+        self.states = {}   # the latest of each port and device, by kind and name
+        self.events = []   # what the gateway had to say
         with open(self.json_file, "wb") as output:
             super().__init__(test, "watch", [binary("PLC_GATEWAY"), "watch", "--json", "--domain", dds["domain"],
                                              "--interface", dds["interface"], "--partition", dds["partition"]], output)
@@ -161,6 +163,10 @@ class Watch(Program):
                     self.statuses.append(event)
                 if event["event"] == "message":
                     self.heard.append(event)
+                if event["event"] in ("port", "device"):
+                    self.states[event["event"], event[event["event"]]] = event
+                if event["event"] == "event":
+                    self.events.append(event)
 
     def connected(self):
         """Waits until it hears the gateway, and so every message from then on."""

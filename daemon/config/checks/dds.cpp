@@ -2,6 +2,8 @@
 #include "daemon/config/fields.hpp"
 #include "daemon/config/ip_address.hpp"
 
+#include <filesystem>
+
 namespace plcgw::config {
 namespace {
 
@@ -21,6 +23,54 @@ void check_peers(check_context& c)
             c.complain("/dds/peers/" + std::to_string(i),
                        "is \"" + peer + "\", expected an IPv4 address such as 192.168.1.5, not a name");
     }
+}
+
+// A writer is in a partition; a reader may look into all that fit a pattern.
+void check_partition(check_context& c, const std::string& at, const std::string& name)
+{
+    if (name.find_first_of("*?[") != std::string::npos)
+        c.complain(at, "is \"" + name + "\": a pattern is for readers (`plc-gateway watch --partition '" + name +
+                           "'`), the gateway publishes in partitions that have names");
+}
+
+void check_partitions(check_context& c)
+{
+    const dds_settings& s = c.config.dds.settings;
+    check_partition(c, "/dds/partition", s.partition);
+    for (std::size_t i = 0; i < s.partitions.size(); ++i)
+        check_partition(c, "/dds/partitions/" + std::to_string(i), s.partitions[i]);
+}
+
+void check_cyclone_config(check_context& c)
+{
+    const dds_settings& s = c.config.dds.settings;
+    if (s.cyclone_config.empty())
+        return;
+    const std::string at = "/dds/cyclone_config";
+    if (!std::filesystem::is_regular_file(s.cyclone_config))
+        c.complain(at, "is \"" + s.cyclone_config + "\", which is no file");
+    else if (!s.peers.empty())
+        c.complain("/dds/peers", "are not used: " + at + " says all of where the gateway is heard, its peers, too",
+                   mistake::weight::warning);
+}
+
+// A deadline is a promise: readers are told when no sample came within it.
+void check_deadlines(check_context& c)
+{
+    const dds_config& dds = c.config.dds;
+    const auto look = [&](const char* key, const topic_settings& topic, milliseconds silence, const char* setting) {
+        const milliseconds least = silence + milliseconds(1);
+        if (topic.deadline.count() != 0 && topic.deadline < least)
+            c.complain(std::string("/dds/topics/") + key + "/deadline_ms",
+                       "is " + std::to_string(topic.deadline.count()) + ", but an unchanged sample comes again after " +
+                           std::to_string(silence.count()) + " ms (" + setting + ") only: at least " +
+                           std::to_string(least.count()));
+    };
+    constexpr milliseconds status_period{1000};
+    look("register_block", dds.topics.register_block, dds.longest_silence, "longest_silence_ms");
+    look("port_status", dds.topics.port_status, dds.status_silence, "status_silence_ms");
+    look("device_status", dds.topics.device_status, dds.status_silence, "status_silence_ms");
+    look("gateway_status", dds.topics.gateway_status, status_period, "its period");
 }
 
 void check_blocks(check_context& c)
@@ -96,6 +146,9 @@ void check_names(check_context& c)
 void check_dds(check_context& c)
 {
     check_peers(c);
+    check_partitions(c);
+    check_cyclone_config(c);
+    check_deadlines(c);
     check_blocks(c);
     check_names(c);
 }
