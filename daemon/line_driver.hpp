@@ -1,6 +1,8 @@
 // What the gateway needs to know of whatever carries a line's requests: a serial port or a TCP connection.
 #pragma once
 
+#include "bridge/standby/line_voice.hpp"
+
 #include <boost/asio/awaitable.hpp>
 
 namespace plcgw {
@@ -9,7 +11,10 @@ class line_driver {
 public:
     virtual ~line_driver() = default;
     virtual boost::asio::awaitable<void> run() = 0;  // until the io_context ends
-    virtual void wake() = 0;                         // something is due at once
+    virtual void wake() = 0;                         // something is due at once, or the voice has changed
+
+    // Before run(): asks only while that says so, and tells it what is heard. Server lines never ask.
+    virtual void obey(line_voice&) {}
 };
 
 }  // namespace plcgw
