@@ -74,7 +74,12 @@ pair_news received(const plcgw_v1_PairBeat& in)
     for (std::uint32_t i = 0; i < in.lines._length; ++i) {
         const plcgw_v1_PairLine& each = in.lines._buffer[i];
         const bool known = each.state <= plcgw_v1_PAIR_LINE_GOOD;
-        out.lines.push_back({text(each.line), known ? line_report{each.state} : line_report::unknown, each.speaks});
+        pair_line_report& line = out.lines.emplace_back();
+        line.line = text(each.line);
+        line.state = known ? line_report{each.state} : line_report::unknown;
+        line.speaks = each.speaks;
+        if (each.asked_us >= 0)
+            line.asked = duration(each.asked_us);
     }
     return out;
 }
@@ -225,6 +230,7 @@ void pair_port::publish(const pair_beat& beat)
         fill_string(lines[i].line, beat.lines[i].line);
         lines[i].state = static_cast<std::uint8_t>(beat.lines[i].state);
         lines[i].speaks = beat.lines[i].speaks;
+        lines[i].asked_us = beat.lines[i].asked.value_or(duration(-1)).count();
     }
     const auto flag = [](bool on, unsigned bit) { return on ? bit : 0U; };
     auto out = state_->keyed<plcgw_v1_PairBeat>();

@@ -231,9 +231,9 @@ std::optional<std::string> standby_pair::silent_line(time_point now) const
     if (good_lines_here(now) <= good_lines_there())
         return std::nullopt;
     for (const pair_line& each : lines_) {
-        const line_report there = report_there(each.settings().name);
-        const bool fails_there = there == line_report::mute || there == line_report::closed;
-        if (fails_there && each.is_silent(now) && each.is_worth_a_claim())
+        const pair_line_report there = report_there(each.settings().name);
+        const bool unheard = there.state == line_report::mute && there.asked && each.missed(now, *there.asked);
+        if ((unheard || there.state == line_report::closed) && each.is_silent(now) && each.is_worth_a_claim())
             return each.settings().name;
     }
     return std::nullopt;
@@ -253,16 +253,16 @@ unsigned standby_pair::good_lines_there() const
 {
     unsigned good = 0;
     for (const pair_line& each : lines_)
-        good += report_there(each.settings().name) == line_report::good ? 1 : 0;
+        good += report_there(each.settings().name).state == line_report::good ? 1 : 0;
     return good;
 }
 
-line_report standby_pair::report_there(const std::string& line) const
+pair_line_report standby_pair::report_there(const std::string& line) const
 {
     for (const pair_line_report& each : other_->lines)
         if (each.line == line)
-            return each.state;
-    return line_report::unknown;
+            return each;
+    return {};
 }
 
 pair_beat standby_pair::beat() const
@@ -278,7 +278,7 @@ pair_beat standby_pair::beat() const
     out.keeps = keeps_;
     const time_point looked_at = lease_until_ - settings_.lease;
     for (const pair_line& each : lines_)
-        out.lines.push_back({each.settings().name, each.report(looked_at), each.speaks()});
+        out.lines.push_back({each.settings().name, each.report(looked_at), each.speaks(), each.asked(looked_at)});
     return out;
 }
 

@@ -89,7 +89,7 @@ private:
     void look_at_held_back(time_point now, pair_line& line, certainty how);
     unsigned good_lines_here(time_point now) const;
     unsigned good_lines_there() const;
-    line_report report_there(const std::string& line) const;
+    pair_line_report report_there(const std::string& line) const;
     void say(pair_event::severity level, std::string text) { events_.push_back({level, std::move(text)}); }
 
     pair_settings settings_;

@@ -1,7 +1,10 @@
 // What one member of a pair says to the other several times a lease.
 #pragma once
 
+#include "protocols/time.hpp"
+
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +28,7 @@ struct pair_line_report {
     std::string line;
     line_report state{};
     bool speaks = false;
+    std::optional<duration> asked{};  // so long ago; nothing: it never did
     bool operator==(const pair_line_report&) const = default;
 };
 

@@ -12,7 +12,10 @@ constexpr duration pause_after_answer = std::chrono::milliseconds(20);
 
 void pair_line::heard(const line_heard& what)
 {
+    const bool has_come = what.listens && what.port_open && !heard_.port_open;
     heard_ = what;
+    if (has_come && how_ == certainty::guessed)
+        stop(stopped_);  // who knows what goes on there: listen first
     if (!speaks_ && what.anything && *what.anything > stopped_ + settings_.quiet)
         tried_ = false;
 }
@@ -36,6 +39,17 @@ bool pair_line::is_free(time_point now) const
         return true;
     const bool was_answered = heard_.anything && *heard_.anything > *heard_.foreign_request;
     return was_answered && now - *heard_.anything >= pause_after_answer;
+}
+
+std::optional<duration> pair_line::asked(time_point now) const
+{
+    return heard_.asked ? std::optional<duration>(now - *heard_.asked) : std::nullopt;
+}
+
+bool pair_line::missed(time_point now, duration asked_ago) const
+{
+    constexpr duration on_its_way = std::chrono::milliseconds(300);
+    return can_hear() && silent_for(now) > asked_ago + on_its_way;
 }
 
 line_report pair_line::report(time_point now) const
@@ -75,6 +89,7 @@ bool pair_line::heard_others() const { return speaks_ && heard_.foreign_request 
 
 void pair_line::look(time_point now, certainty how, duration moment)
 {
+    how_ = how;
     const bool lives = !heard_.listens || silent_for(now) < settings_.quiet;
     if (how == certainty::agreed || lives) {
         moment_ends_ = time_point::max();
@@ -92,7 +107,8 @@ void pair_line::look(time_point now, certainty how, duration moment)
 
 time_point pair_line::speaks_until(time_point lease_until) const
 {
-    return speaks_ ? std::min(lease_until, moment_ends_) : time_point::min();
+    const bool is_blind = how_ == certainty::guessed && heard_.listens && !heard_.port_open;
+    return speaks_ && !is_blind ? std::min(lease_until, moment_ends_) : time_point::min();
 }
 
 }  // namespace plcgw

@@ -42,6 +42,10 @@ public:
     }
     bool can_hear() const { return heard_.listens && heard_.port_open; }
     line_report report(time_point now) const;
+    std::optional<duration> asked(time_point now) const;
+
+    // The other one asked so long ago, and that was not heard here.
+    bool missed(time_point now, duration asked_ago) const;
 
     bool speaks() const { return speaks_; }
     void begin(time_point now);
@@ -51,8 +55,8 @@ public:
     bool heard_others() const;  // since this member speaks there
     bool is_worth_a_claim() const { return !tried_ && heard_.port_open; }
 
-    // While it speaks. On a line without any sign of life, and a member that may be there unheard (its cable may be
-    // plugged in again just now), it speaks for a moment between times of listening.
+    // At each look, before begin(). On a line without any sign of life, and a member that may be there unheard (its
+    // cable may be plugged in again just now), it speaks for a moment between times of listening.
     void look(time_point now, certainty how, duration moment);
     time_point speaks_until(time_point lease_until) const;
 
@@ -67,6 +71,7 @@ private:
     time_point since_{};  // speaks, or is held back
     time_point stopped_{};
     time_point listens_since_{};
+    certainty how_ = certainty::guessed;
     time_point moment_ends_ = time_point::max();
     time_point next_moment_{};
 };

@@ -63,7 +63,7 @@ pair_beat beat(const char* who)
     out.term = 0x1'0000'0007;
     out.priority = 100;
     out.claims = out.keeps = true;
-    out.lines = {{"line1", line_report::mute, false}, {"line2", line_report::good, true}};
+    out.lines = {{"line1", line_report::mute, false, 1500ms}, {"line2", line_report::good, true, std::nullopt}};
     return out;
 }
 

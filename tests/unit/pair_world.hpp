@@ -34,6 +34,7 @@ public:
         std::unique_ptr<standby_pair> pair;
         bool stopped = false;
         std::array<bool, lines> plugged{true, true};
+        std::array<bool, lines> present{true, true};  // the adapter
         std::array<line_heard, lines> heard{};
         std::array<time_point, lines> next_question{};
         std::vector<pair_beat> inbox;
@@ -52,8 +53,10 @@ public:
     {
         process& p = members[index(who)];
         const auto plugged = p.plugged;
+        const auto present = p.present;
         p = process{};
         p.plugged = plugged;
+        p.present = present;
         pair_settings s;
         s.member = who == 0 ? "a" : "b";
         s.priority = who == 0 ? 100 : 50;
@@ -63,10 +66,17 @@ public:
         s.hand_back_after = 3s;
         s.lines = {{"one", quiet, limit, true}, {"two", quiet, limit, true}};
         p.pair = std::make_unique<standby_pair>(s, now);
-        for (line_heard& each : p.heard) {
-            each.listens = each.port_open = true;
-            each.open_since = now;
+        for (std::size_t line = 0; line < lines; ++line) {
+            p.heard[line].listens = true;
+            attach(who, line, present[line]);
         }
+    }
+    void attach(int who, std::size_t line, bool on)
+    {
+        process& p = members[index(who)];
+        p.present[line] = on;
+        p.heard[line].port_open = on;
+        p.heard[line].open_since = now;
     }
     void kill(int who)
     {
@@ -168,6 +178,9 @@ private:
         wire& w = wires[line];
         if (now < p.next_question[line] || now >= p.pair->speaks_until(line))
             return;
+        if (!p.heard[line].port_open)
+            return;
+        p.heard[line].asked = now;
         p.next_question[line] = now + (p.plugged[line] && w.has_device ? period : 300ms);
         if (!p.plugged[line])
             return;
@@ -179,12 +192,12 @@ private:
         ++questions[index(who)][line];
         last_question[line] = now;
         process& other = members[index(1 - who)];
-        if (other.pair && other.plugged[line])
+        if (other.pair && other.plugged[line] && other.present[line])
             other.heard[line].foreign_request = other.heard[line].anything = now;
         if (!w.has_device)
             return;
         for (process* each : {&p, &other})
-            if (each->pair && each->plugged[line])
+            if (each->pair && each->plugged[line] && each->present[line])
                 each->heard[line].anything = now + exchange;
     }
 

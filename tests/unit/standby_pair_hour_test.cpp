@@ -25,7 +25,7 @@ struct faults {
     {
         const int who = any();
         pair_world::process& p = w.members[static_cast<std::size_t>(who)];
-        switch (dice() % 8) {
+        switch (dice() % 9) {
         case 0: w.kill(who); break;
         case 1: w.stop(who); break;
         case 2:
@@ -46,6 +46,13 @@ struct faults {
         }
     }
 
+    void restore(int who, std::size_t line)
+    {
+        w.plug(who, line, true);
+        if (!w.members[static_cast<std::size_t>(who)].present[line])
+            w.attach(who, line, true);
+    }
+
     void heal()
     {
         for (const int who : {0, 1}) {
@@ -53,7 +60,7 @@ struct faults {
             if (!w.members[static_cast<std::size_t>(who)].pair)
                 w.start(who);
             for (std::size_t line = 0; line < pair_world::lines; ++line)
-                w.plug(who, line, true);
+                restore(who, line);
         }
         for (pair_world::wire& each : w.wires)
             each.has_device = true;

@@ -123,6 +123,20 @@ TEST_CASE("pair: a pulled cable moves the role, and it stays there until the cab
     CHECK(w.collisions.empty());
 }
 
+TEST_CASE("pair: an adapter that is gone moves the role, and hands it back")
+{
+    pair_world w;
+    w.run(4s);
+    w.attach(a, 1, false);
+    CHECK(w.until_spoken(b, 1, 10s) <= pair_world::limit + 600ms);
+    w.run(30s);
+    CHECK(only(w, b));
+    w.attach(a, 1, true);
+    w.run(10s);
+    CHECK(only(w, a));
+    CHECK(w.collisions.empty());
+}
+
 TEST_CASE("pair: a standby without its own cable does not take what it cannot use")
 {
     pair_world w;
@@ -157,6 +171,36 @@ TEST_CASE("pair: devices that are silent are no reason")
     CHECK(only(w, a));
     CHECK(w.questions[b][0] == 0);
     CHECK(w.collisions.empty());
+}
+
+TEST_CASE("pair: a member that may be alone listens to a dead line between its questions")
+{
+    pair_line line({"one", 800ms, 2s, true});
+    time_point now{1h};
+    line_heard heard;
+    heard.listens = heard.port_open = true;
+    heard.open_since = now;
+    line.heard(heard);
+    line.look(now += 1s, certainty::guessed, 100ms);
+    line.begin(now);
+    int speaks = 0;
+    for (int i = 0; i < 1000; ++i) {
+        line.heard(heard);
+        line.look(now += 10ms, certainty::guessed, 100ms);
+        speaks += now < line.speaks_until(time_point::max()) ? 1 : 0;
+    }
+    CHECK(speaks > 200);  // the first 800 ms, then 100 of each 500
+    CHECK(speaks < 350);
+    line.look(now, certainty::agreed, 100ms);
+    CHECK(now < line.speaks_until(time_point::max()));
+    heard.port_open = false;
+    line.heard(heard);
+    line.look(now, certainty::guessed, 100ms);
+    CHECK(line.speaks());
+    CHECK(now >= line.speaks_until(time_point::max()));
+    heard.port_open = true;
+    line.heard(heard);
+    CHECK_FALSE(line.speaks());
 }
 
 TEST_CASE("pair: without the network the lines decide")
