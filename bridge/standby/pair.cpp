@@ -87,7 +87,7 @@ bool standby_pair::claim_outranks(const pair_beat& beat) const
            std::tie(beat.term, beat.priority, beat.member);
 }
 
-void standby_pair::lost(time_point)
+void standby_pair::lost()
 {
     if (other_is_ != other_state::alive)
         return;
@@ -95,12 +95,12 @@ void standby_pair::lost(time_point)
     say(severity::warning, "member " + other_->member + " is not heard any more");
 }
 
-bool standby_pair::other_lives(time_point) const { return other_is_ == other_state::alive; }
+bool standby_pair::other_lives() const { return other_is_ == other_state::alive; }
 
 void standby_pair::look_at_other(time_point now)
 {
     if (other_is_ == other_state::alive && now - other_heard_ > settings_.lease * 3 / 2)
-        lost(now);
+        lost();
 }
 
 void standby_pair::give_way(time_point now, const pair_beat& beat, const std::string& why)
@@ -149,7 +149,7 @@ void standby_pair::look(time_point now, std::span<const line_heard> lines)
     lease_until_ = now + settings_.lease;
     look_at_other(now);
     follow_claim(now);
-    const bool other_works = other_lives(now) && other_->role == pair_role::active;
+    const bool other_works = other_lives() && other_->role == pair_role::active;
     if (role_ == pair_role::starting && (other_works || now >= listens_until_))
         become(now, pair_role::standby, other_works ? "member " + other_->member + " is active" : "nobody is active");
     if (role_ == pair_role::standby)
@@ -170,7 +170,7 @@ void standby_pair::follow_claim(time_point now)
 {
     if (!claim_)
         return;
-    if (!other_lives(now)) {
+    if (!other_lives()) {
         claim_.reset();
     }
     else if (other_->role != pair_role::active && !other_->claims && other_->term >= claim_->term) {
@@ -189,7 +189,7 @@ void standby_pair::look_as_standby(time_point now)
 {
     if (claim_)
         return;
-    if (!other_lives(now)) {
+    if (!other_lives()) {
         take_over_if_quiet(now);
         return;
     }
@@ -284,7 +284,7 @@ pair_beat standby_pair::beat() const
 
 std::optional<std::string> standby_pair::switch_over(time_point now)
 {
-    if (!other_lives(now))
+    if (!other_lives())
         return "the other member is not heard: there is nobody to hand over to";
     if (role_ == pair_role::starting || other_->role == pair_role::starting)
         return "a member has just started and still listens: try again in some seconds";

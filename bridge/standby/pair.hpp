@@ -32,7 +32,7 @@ public:
 
     // The other member's beat came; its liveliness was lost. Before look(), in the order in which they came.
     void heard(time_point now, const pair_beat& beat);
-    void lost(time_point now);
+    void lost();
 
     // Renews the own lease and decides, at least every beat_period(). Of each line, as numbered by the settings. After
     // a time longer than the lease this member is not active any more: it has stood still, and listens anew.
@@ -43,6 +43,7 @@ public:
     time_point speaks_until(std::size_t line) const;
 
     pair_role role() const { return role_; }
+    time_point lease_until() const { return lease_until_; }
     bool is_active(time_point now) const { return role_ == pair_role::active && now < lease_until_; }
     std::uint64_t term() const { return term_; }
     const std::string& why() const { return why_; }  // it has this role
@@ -52,7 +53,7 @@ public:
     std::vector<pair_event> take_events() { return std::exchange(events_, {}); }
 
     const std::optional<pair_beat>& other() const { return other_; }  // what was heard last
-    bool other_lives(time_point now) const;
+    bool other_lives() const;
     bool line_is_held_back(std::size_t line) const { return lines_[line].is_held_back(); }
 
     // The other member shall be active, or this one if it is not. Why that cannot be, or nothing.

@@ -68,7 +68,7 @@ void standby_pair::take_silent_lines(time_point now)
 void standby_pair::look_as_active(time_point now)
 {
     offers_ = offers_ && now < offers_until_;
-    const bool is_agreed = other_is_ == other_state::left || (other_lives(now) && other_->role != pair_role::active);
+    const bool is_agreed = other_is_ == other_state::left || (other_lives() && other_->role != pair_role::active);
     const certainty how = is_agreed ? certainty::agreed : certainty::guessed;
     bool works = false;
     bool gave_way = false;
@@ -99,7 +99,7 @@ void standby_pair::look_at_held_back(time_point now, pair_line& line, certainty 
     }
     // Who took over without the other's knowledge knows that its own term is the higher one; the other guesses so.
     const bool comes_first = other_ && term_ > other_->term;
-    if (!line.heard_others() || other_lives(now) || comes_first)
+    if (!line.heard_others() || other_lives() || comes_first)
         return;
     line.hold_back(now);
     ++attempts_;

@@ -148,7 +148,7 @@ private:
             // What the middleware does: also of a process that died.
             if (!p.gone_told && now - p.said_at > lease && works(1 - who)) {
                 p.gone_told = true;
-                other.pair->lost(now);
+                other.pair->lost();
             }
             if (!works(who))
                 continue;
