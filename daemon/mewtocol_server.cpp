@@ -34,7 +34,10 @@ asio::awaitable<void> mewtocol_server::run()
         in_ = mewtocol::line_framer(longest_pause);
         echo_ = echo_filter(config_.echo);
         const error_code ec = co_await serve();
-        connection_->close(ec);
+        if (ec == not_active)
+            connection_->rest();
+        else
+            connection_->close(ec);
     }
 }
 

@@ -59,7 +59,10 @@ asio::awaitable<void> serial_server::run()
         echo_ = echo_filter(config_.echo);
         const error_code ec = co_await serve();
         others_.give_up();
-        connection_->close(ec);
+        if (ec == not_active)
+            connection_->rest();
+        else
+            connection_->close(ec);
     }
 }
 

@@ -80,6 +80,14 @@ void tcp_connection::close(const error_code& why)
     say_absent(why);
 }
 
+void tcp_connection::rest()
+{
+    error_code ignored;
+    socket_.close(ignored);
+    log::info("line {}: disconnected from {}:{}: the other member of the pair asks", line_.name, line_.host,
+              line_.port);
+}
+
 void tcp_connection::say_absent(const error_code& why)
 {
     if (!std::exchange(said_, true))

@@ -126,6 +126,8 @@ bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
             continue;  // it came from the station
         if (of.through && words_in_memory(of.content) == of.agreed)
             continue;  // a write that failed was taken back
+        if (was_heard_written(of))
+            continue;
         of.first_write.reset();
         ask_write(of);
         due = true;

@@ -74,6 +74,13 @@ public:
     void forwarded(std::size_t station, outcome how, duration took, time_point now, unanswered_requests late,
                    duration pause);
 
+    // What became of somebody else's question to the station, which took no time of ours.
+    void overheard(std::size_t station, outcome how, time_point now)
+    {
+        heard(stations_[station], how, now, {});
+        set_asked(station);
+    }
+
     health state_of(std::size_t station) const { return stations_[station].health.state(); }
     time_point probe_at(std::size_t station) const { return stations_[station].health.probe_at(); }
 
