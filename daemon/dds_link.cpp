@@ -28,6 +28,8 @@ dds_link::dds_link(boost::asio::io_context& loop, const gateway_config& config, 
                                                                           : config.dds.member,
                                                 version, std::move(config_hash)}
 {
+    if (config.standby.is_configured())
+        shared_lease_ = config.standby.lease;
     if (!settings_.enabled)
         return;
     set_dds_log([&loop](dds_log_level level, const std::string& line) {  // on Cyclone's threads
@@ -37,11 +39,24 @@ dds_link::dds_link(boost::asio::io_context& loop, const gateway_config& config, 
 
 dds_link::~dds_link() { set_dds_log({}); }
 
+void dds_link::assert_liveliness()
+{
+    if (publisher_ && shared_lease_)
+        publisher_->assert_liveliness();
+}
+
+void dds_link::set_strength(std::int32_t strength)
+{
+    strength_ = strength;
+    if (publisher_ && shared_lease_)
+        publisher_->set_strength(strength);
+}
+
 bool dds_link::open()
 {
     if (!settings_.enabled || publisher_)
         return false;
-    auto made = dds_publisher::create(settings_, identity_);
+    auto made = dds_publisher::create(settings_, identity_, shared_lease_);
     if (!made) {
         if (!std::exchange(failed_, true))
             log::warning("DDS: {}. It is tried again until it works", made.error().text);
@@ -49,6 +64,7 @@ bool dds_link::open()
     }
     failed_ = false;
     publisher_.emplace(std::move(*made));
+    set_strength(strength_);
     log::info("DDS publishes on domain {}, interface {}", settings_.domain,
               settings_.interface.empty() ? "of Cyclone's choice" : settings_.interface);
     return true;

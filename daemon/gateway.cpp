@@ -5,6 +5,7 @@
 #include "daemon/control_path.hpp"
 #include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
+#include "daemon/pair_command.hpp"
 #include "daemon/service_notify.hpp"
 
 #include <boost/asio/co_spawn.hpp>
@@ -43,6 +44,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_plc_links();
     make_copies();
     make_points();
+    make_standby();
     learned_.remember(lines_);
 }
 
@@ -191,6 +193,8 @@ bool gateway::start()
         links_->start();
     upstream_.start();
     points_.start();
+    if (standby_)
+        standby_->start();
     asio::co_spawn(loop_, every_second(), asio::detached);
     if (const auto period = service::watchdog_period())
         asio::co_spawn(loop_, keep_watchdog(*period), asio::detached);
@@ -200,14 +204,19 @@ bool gateway::start()
 
 bool gateway::listen()
 {
-    for (const auto& server : servers_) {
-        if (const auto ec = server->listen()) {
-            log::error("MODBUS TCP cannot listen on {}: {}. {}", server->endpoint(), ec.message(), cure_of(ec));
-            return false;
-        }
-        log::info("MODBUS TCP listens on {}", server->endpoint());
-        asio::co_spawn(loop_, server->accept_clients(), asio::detached);
+    if (standby_)
+        return true;  // when it is active
+    return std::all_of(servers_.begin(), servers_.end(), [this](const auto& server) { return listen(*server); });
+}
+
+bool gateway::listen(tcp_server& server)
+{
+    if (const auto ec = server.listen()) {
+        log::error("MODBUS TCP cannot listen on {}: {}. {}", server.endpoint(), ec.message(), cure_of(ec));
+        return false;
     }
+    log::info("MODBUS TCP listens on {}", server.endpoint());
+    asio::co_spawn(loop_, server.accept_clients(), asio::detached);
     return true;
 }
 
@@ -224,6 +233,8 @@ void gateway::start_control()
 
 nlohmann::json gateway::command(const nlohmann::json& what)
 {
+    if (what.value("command", "") == "pair")
+        return pair_command(standby_.get(), what);
     nlohmann::json reply = control_command(plcs_, links_.get(), what, now());
     settle_memory();
     return reply;
@@ -251,8 +262,10 @@ asio::awaitable<void> gateway::every_second()
     for (;;) {
         if (dds_.open())
             publish_everything();
-        for (const auto& line : lines_)
-            line->statuses.show(wall_now());
+        if (is_active())
+            for (const auto& line : lines_)
+                line->statuses.show(wall_now());
+        listen_again();
         settle_memory();
         points_.keep_silences();
         points_.publish();
@@ -266,6 +279,10 @@ void gateway::show_status()
 {
     gateway_status status;
     status.started = started_;
+    if (standby_) {
+        status.role = standby_->role();
+        status.strength = standby_->strength();
+    }
     for (const auto& line : lines_) {
         status.routes_up += static_cast<std::uint32_t>(line->routes.routes_up());
         status.routes_total += static_cast<std::uint32_t>(line->routes.routes_total());
@@ -275,7 +292,9 @@ void gateway::show_status()
         status.routes_total += static_cast<std::uint32_t>(line->content.routes_total());
     }
     dds_.publish(status);
-    const std::string text = fmt::format("{} of {} routes up", status.routes_up, status.routes_total);
+    std::string text = fmt::format("{} of {} routes up", status.routes_up, status.routes_total);
+    if (standby_)
+        text = fmt::format("{}, {}", to_string(status.role), text);
     if (text != shown_status_)
         service::status(shown_status_ = text);
 }

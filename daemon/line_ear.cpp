@@ -103,6 +103,7 @@ void line_ear::spoke(bytes ours)
     if (!listener_)
         return;
     awake_at_ = now();
+    voice_->heard.asked = now();
     listener_->spoke(now(), ours);
     tell();
 }

@@ -3,6 +3,7 @@
 #include "daemon/config/schema.hpp"
 #include "daemon/link_time_command.hpp"
 #include "daemon/map_command.hpp"
+#include "daemon/pair_command.hpp"
 #include "daemon/plan_command.hpp"
 #include "daemon/plc_command.hpp"
 #include "daemon/plc_link_command.hpp"
@@ -146,6 +147,11 @@ int run_command(int argc, char** argv)
     CLI::App* const plc_link = app.add_subcommand("plc-link", "Show the PLC links of the running gateway");
     plc_link->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
 
+    std::string pair_action = "show";
+    CLI::App* const pair = app.add_subcommand("pair", "Show both members of a hot-standby pair, or change their roles");
+    pair->add_option("action", pair_action, "show or switch")->capture_default_str();
+    pair->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
+
     const CLI::App* const schema = app.add_subcommand("schema", "Print the JSON Schema of the configuration");
 
     try {
@@ -166,6 +172,8 @@ int run_command(int argc, char** argv)
         return plcgw::plc_client(socket, plc_action, plc_name);
     if (*plc_link)
         return plcgw::plc_link_client(socket);
+    if (*pair)
+        return plcgw::pair_client(socket, pair_action);
     if (*map)
         return plcgw::show_map(mapped);
     if (*link_time)

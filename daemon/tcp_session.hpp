@@ -1,6 +1,7 @@
 // One client's connection to a MODBUS TCP server.
 #pragma once
 
+#include "bridge/standby/line_voice.hpp"
 #include "daemon/read_before.hpp"
 #include "daemon/tcp_framing.hpp"
 #include "daemon/through_writes.hpp"
@@ -22,12 +23,15 @@ struct tcp_service {
     std::string endpoint;  // "127.0.0.1:1502", for the log
     unit_table units;
     through_writes* through = nullptr;
-    std::function<void()> settle;  // called after replies went out, to drain what the requests changed
+    std::function<void()> settle;       // called after replies went out, to drain what the requests changed
+    const line_voice* voice = nullptr;  // of a pair: answers only while that says so
     duration idle_timeout{};
     unsigned max_outstanding = 1;  // forwarded requests of one client at a time
 
     // Some in each period: a client that sends nonsense all the time does not fill the log.
     bool may_complain();
+
+    bool may_answer() const { return voice == nullptr || voice->may_speak(now()); }
 
 private:
     time_point complaints_since_{};
@@ -43,6 +47,7 @@ public:
                 tcp_service& service);
 
     asio::awaitable<void> run();  // until the client leaves, or has to
+    void dismiss() { close(); }   // another member of the pair answers
 
 private:
     struct forwarded {

@@ -33,6 +33,17 @@ qos_ptr writer_qos(qos_ptr qos)
     return qos;
 }
 
+qos_ptr shared_qos(std::optional<duration> lease)
+{
+    qos_ptr qos = state_qos();
+    if (!lease)
+        return qos;
+    dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
+    dds_qset_ownership_strength(qos.get(), 0);
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_USECS(lease->count()));
+    return qos;
+}
+
 }  // namespace
 
 struct dds_publisher::state {
@@ -54,7 +65,8 @@ struct dds_publisher::state {
     void count(dds_return_t written);
 };
 
-dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dds_identity who)
+dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dds_identity who,
+                                                std::optional<duration> shared_lease)
 {
     auto participant = dds_participant::open(settings);
     if (!participant)
@@ -77,10 +89,10 @@ dds_result<dds_publisher> dds_publisher::create(const dds_settings& settings, dd
     made->messages = create_writer(plcgw_v1_SerialMessage_desc, serial_message_topic, event_qos());
     if (made->messages < 0)
         return creation_error("DDS writer of SerialMessage", made->messages, log.text());
-    made->blocks = create_writer(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
+    made->blocks = create_writer(plcgw_v1_RegisterBlock_desc, register_block_topic, shared_qos(shared_lease));
     if (made->blocks < 0)
         return creation_error("DDS writer of RegisterBlock", made->blocks, log.text());
-    made->points = create_writer(plcgw_v1_Point_desc, point_topic, state_qos());
+    made->points = create_writer(plcgw_v1_Point_desc, point_topic, shared_qos(shared_lease));
     if (made->points < 0)
         return creation_error("DDS writer of Point", made->points, log.text());
     made->statuses = create_writer(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
@@ -112,6 +124,23 @@ void dds_publisher::state::count(dds_return_t written)
     }
     ++drops;
     last_error = written;
+}
+
+void dds_publisher::assert_liveliness()
+{
+    for (const dds_entity_t writer : {state_->blocks, state_->points})
+        dds_assert_liveliness(writer);
+}
+
+void dds_publisher::set_strength(std::int32_t strength)
+{
+    for (const dds_entity_t writer : {state_->blocks, state_->points}) {
+        const qos_ptr qos(dds_create_qos());
+        dds_qset_ownership_strength(qos.get(), strength);
+        const dds_return_t set = dds_set_qos(writer, qos.get());
+        if (set != DDS_RETCODE_OK)
+            state_->last_error = set;
+    }
 }
 
 void dds_publisher::publish(const sample& s)

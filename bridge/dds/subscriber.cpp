@@ -141,10 +141,11 @@ bool take_some(dds_entity_t reader, std::vector<dds_event>& events)
 struct dds_subscriber::state {
     int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     std::unique_ptr<dds_participant> participant;
-    dds_entity_t blocks{};    // reader of RegisterBlock
-    dds_entity_t points{};    // reader of Point
-    dds_entity_t statuses{};  // reader of GatewayStatus
-    dds_entity_t messages{};  // reader of SerialMessage
+    // Of gateways alone and of pairs: a reader matches only writers of its own kind of ownership.
+    std::array<dds_entity_t, 2> blocks{};  // readers of RegisterBlock
+    std::array<dds_entity_t, 2> points{};  // readers of Point
+    dds_entity_t statuses{};               // reader of GatewayStatus
+    dds_entity_t messages{};               // reader of SerialMessage
 
     ~state()
     {
@@ -180,12 +181,16 @@ dds_result<dds_subscriber> dds_subscriber::create(const dds_settings& settings)
     made->messages = create_reader(plcgw_v1_SerialMessage_desc, serial_message_topic, message_reader_qos());
     if (made->messages < 0)
         return creation_error("DDS reader of SerialMessage", made->messages, log.text());
-    made->blocks = create_reader(plcgw_v1_RegisterBlock_desc, register_block_topic, state_qos());
-    if (made->blocks < 0)
-        return creation_error("DDS reader of RegisterBlock", made->blocks, log.text());
-    made->points = create_reader(plcgw_v1_Point_desc, point_topic, state_qos());
-    if (made->points < 0)
-        return creation_error("DDS reader of Point", made->points, log.text());
+    for (std::size_t i = 0; i < made->blocks.size(); ++i) {
+        qos_ptr qos = state_qos();
+        dds_qset_ownership(qos.get(), i == 0 ? DDS_OWNERSHIP_SHARED : DDS_OWNERSHIP_EXCLUSIVE);
+        made->blocks[i] = create_reader(plcgw_v1_RegisterBlock_desc, register_block_topic, qos);
+        if (made->blocks[i] < 0)
+            return creation_error("DDS reader of RegisterBlock", made->blocks[i], log.text());
+        made->points[i] = create_reader(plcgw_v1_Point_desc, point_topic, qos);
+        if (made->points[i] < 0)
+            return creation_error("DDS reader of Point", made->points[i], log.text());
+    }
     made->statuses = create_reader(plcgw_v1_GatewayStatus_desc, gateway_status_topic, state_qos());
     if (made->statuses < 0)
         return creation_error("DDS reader of GatewayStatus", made->statuses, log.text());
@@ -209,8 +214,11 @@ std::vector<dds_event> dds_subscriber::take(std::size_t most)
     while (more && events.size() < most) {
         const bool statuses = take_some<plcgw_v1_GatewayStatus>(state_->statuses, events);
         const bool messages = take_some<plcgw_v1_SerialMessage>(state_->messages, events);
-        const bool points = take_some<plcgw_v1_Point>(state_->points, events);
-        more = take_some<plcgw_v1_RegisterBlock>(state_->blocks, events) || points || statuses || messages;
+        more = statuses || messages;
+        for (std::size_t i = 0; i < state_->blocks.size(); ++i) {
+            more = take_some<plcgw_v1_Point>(state_->points[i], events) || more;
+            more = take_some<plcgw_v1_RegisterBlock>(state_->blocks[i], events) || more;
+        }
     }
     if (more)
         wake(state_->descriptor);

@@ -13,6 +13,8 @@
 
 namespace plcgw {
 
+struct route_record;
+
 struct station {
     std::string name;
     station_number unit;
@@ -153,6 +155,11 @@ public:
     bool is_half(std::size_t number) const { return routes_[number].half; }  // the writing half of a route
     bool is_up(std::size_t number) const;
     health health_of(std::size_t station) const { return schedule_.state_of(station); }
+
+    // Of a standby whose stations cannot be heard: what the active member says of a row. And before it asks: what it
+    // would write again is forgotten.
+    void adopt(std::size_t number, const route_record& record, time_point now, wall_time wall);
+    void forget_written();
 
     // The worst quality and the oldest source among the read routes that fill these devices; good when there are none.
     void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;

@@ -17,6 +17,7 @@ enum class voice : std::uint8_t {
 struct line_heard {
     std::optional<time_point> foreign_request;  // the end of the last whole question that was not ours
     std::optional<time_point> anything;         // the last byte received, whosever it was
+    std::optional<time_point> asked;            // our own last question
     bool port_open = false;
     time_point open_since{};  // of a port that is open: before that nothing could be heard
     bool listens = false;     // others can be heard: a serial port of this machine. Silence on TCP says nothing
