@@ -18,7 +18,7 @@ public:
     // hears: this member hears on that line what its stations answer, and so knows it first.
     using hears = std::function<bool(std::size_t line, time_point now)>;
 
-    pair_mirror(const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs, const line_list& lines, hears hears);
+    pair_mirror(const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs, const line_list& lines, hears knows);
 
     void memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
     {

@@ -86,6 +86,14 @@ void standby_member::open()
     asio::co_spawn(loop_, listen(descriptor), asio::detached);
 }
 
+void standby_member::renew_dds()
+{
+    boost::system::error_code ignored;
+    wakes_.close(ignored);
+    port_.reset();
+    open_again_ = {};
+}
+
 asio::awaitable<void> standby_member::listen(int descriptor)
 {
     while (wakes_.is_open() && wakes_.native_handle() == descriptor) {
@@ -120,9 +128,11 @@ void standby_member::receive()
     bool took_any = false;
     for (const pair_news& each : news) {
         if (const auto* const beat = std::get_if<pair_beat>(&each))
-            pair_.heard(now(), *beat);
-        else if (std::holds_alternative<pair_lost>(each))
-            pair_.lost();
+            heard(*beat);
+        else if (const auto* const lost = std::get_if<pair_lost>(&each)) {
+            if (pair_.other() && pair_.other()->member == lost->member)
+                pair_.lost();
+        }
         else if (!is_active()) {
             took_any = true;
             if (const auto* const chunk = std::get_if<memory_chunk>(&each))
@@ -135,6 +145,16 @@ void standby_member::receive()
         log::warning("pair: the other member is configured differently: {} is not the same here", mirror_.misfit());
     if (took_any)
         work_.settle();
+}
+
+void standby_member::heard(const pair_beat& beat)
+{
+    const bool is_namesake = beat.member.empty() || beat.member == self_.member + "'";
+    if (is_namesake && !std::exchange(said_namesake_, true))
+        log::error("pair: two members of {} are called {}: give each its own \"member\" in \"dds\". The one that "
+                   "started first goes on",
+                   self_.gateway, self_.member);
+    pair_.heard(now(), beat);
 }
 
 void standby_member::look()

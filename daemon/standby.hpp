@@ -27,7 +27,8 @@ public:
                    dds_link& dds, work work);
 
     void start();
-    void leave();  // the other member may begin at once
+    void leave();      // the other member may begin at once
+    void renew_dds();  // its domain is made anew: an address has changed
 
     // Of everything that answers and publishes: ends by itself when this process stands still.
     line_voice& answers() { return answers_; }
@@ -49,6 +50,7 @@ private:
     asio::awaitable<void> listen(int descriptor);
     void open();
     void receive();
+    void heard(const pair_beat& beat);
     void look();
     void say();
     void obey_roles();
@@ -75,6 +77,7 @@ private:
     asio::steady_timer soon_;
     bool failed_ = false;  // to open, and said so
     std::string said_misfit_;
+    bool said_namesake_ = false;
 };
 
 }  // namespace plcgw

@@ -84,6 +84,8 @@ asio::awaitable<error_code> tcp_line::listen()
     idle_ = false;
     if (!size && size.error() != asio::error::timed_out)
         co_return size.error();
+    if (!ear_.may_speak())
+        co_return may_not_speak;  // what came may have waited for this process to go on
     if (size && !take_answers(bytes(received_).first(*size)))
         co_return make_error_code(errc::bad_header);
     co_return error_code{};

@@ -144,6 +144,20 @@ struct pair_port::state {
         return read_string(in.gateway) == who.gateway && read_string(in.member) != who.member;
     }
 
+    bool is_namesake(const plcgw_v1_PairBeat& in) const
+    {
+        return read_string(in.gateway) == who.gateway && read_string(in.member) == who.member &&
+               in.started_ns != static_cast<std::int64_t>(who.started);
+    }
+
+    pair_news of_namesake(const plcgw_v1_PairBeat& in) const
+    {
+        pair_news made = received(in);
+        const bool is_later = in.started_ns > static_cast<std::int64_t>(who.started);
+        std::get<pair_beat>(made).member = is_later ? "" : who.member + "'";
+        return made;
+    }
+
     // One loan of Cyclone; false when the reader is empty.
     template <class Topic>
     bool take_some(dds_entity_t reader, std::vector<pair_news>& news)
@@ -156,6 +170,9 @@ struct pair_port::state {
             return false;
         for (std::size_t i = 0; i < static_cast<std::size_t>(taken); ++i) {
             const auto& in = *static_cast<const Topic*>(samples[i]);
+            if constexpr (std::is_same_v<Topic, plcgw_v1_PairBeat>)
+                if (infos[i].valid_data && is_namesake(in))
+                    news.push_back(of_namesake(in));
             if (!is_of_the_other(in))
                 continue;
             if (infos[i].valid_data)

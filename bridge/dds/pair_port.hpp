@@ -41,7 +41,9 @@ public:
 
     int descriptor() const;  // readable: call take()
 
-    // Of other members of the same gateway, beats first; at most some 1000. What is left keeps the descriptor readable.
+    // Of other members of the same gateway, beats first. A beat of another process that has this one's own name, by
+    // mistake, has a name that decides for the one that started first: "" of the later one, with a ' of the earlier
+    // one. At most some 1000; what is left keeps the descriptor readable.
     std::vector<pair_news> take();
 
 private:

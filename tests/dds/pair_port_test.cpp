@@ -14,8 +14,8 @@ namespace {
 constexpr duration lease = 500ms;
 
 struct member {
-    explicit member(std::string name, std::string gateway = "plant")
-        : port(made({std::move(gateway), std::move(name), wall_time{1'700'000'000'000'000'001}}))
+    explicit member(std::string name, std::string gateway = "plant", std::int64_t started = 1)
+        : port(made({std::move(gateway), std::move(name), wall_time{started}}))
     {
     }
 
@@ -102,6 +102,20 @@ TEST_CASE("pair port: beats, memory and routes reach the other member, late ones
     CHECK(a.heard.empty());  // itself
     stranger.take();
     CHECK(stranger.heard.empty());
+}
+
+TEST_CASE("pair port: two processes of one name hear each other, and the first one comes first")
+{
+    member first("a", "plant", 1);
+    member second("a", "plant", 2);
+    first.port.publish(beat("a"));
+    second.port.publish(beat("a"));
+    const auto of_second = first.next<pair_beat>();
+    const auto of_first = second.next<pair_beat>();
+    REQUIRE(of_second);
+    REQUIRE(of_first);
+    CHECK(of_second->member < "a");
+    CHECK(of_first->member > "a");
 }
 
 TEST_CASE("pair port: too long a chunk is dropped")
