@@ -33,6 +33,8 @@ dds_link::dds_link(boost::asio::io_context& loop, const gateway_config& config, 
     port_.port = "dds";
     port_.state = settings_.enabled ? link_state::starting : link_state::disabled;
     port_.since = wall_now();
+    if (config.standby.is_configured())
+        shared_lease_ = config.standby.lease;
     if (!settings_.enabled)
         return;
     set_event_sink([this](const line_event& event) {
@@ -50,6 +52,19 @@ dds_link::~dds_link()
     set_dds_log({});
 }
 
+void dds_link::assert_liveliness()
+{
+    if (publisher_ && shared_lease_)
+        publisher_->assert_liveliness();
+}
+
+void dds_link::set_strength(std::int32_t strength)
+{
+    strength_ = strength;
+    if (publisher_ && shared_lease_)
+        publisher_->set_strength(strength);
+}
+
 bool dds_link::open()
 {
     if (!settings_.enabled)
@@ -61,7 +76,7 @@ bool dds_link::open()
         return false;
     }
     address_set addresses = addresses_of(watched_interface());
-    auto made = dds_publisher::create(settings_, identity_);
+    auto made = dds_publisher::create(settings_, identity_, shared_lease_);
     if (!made) {
         show(link_state::down, made.error().text);
         if (!std::exchange(failed_, true))
@@ -71,6 +86,7 @@ bool dds_link::open()
     }
     failed_ = false;
     publisher_.emplace(std::move(*made));
+    set_strength(strength_);
     addresses_.start(std::move(addresses));
     if (std::exchange(was_open_, true))
         ++port_.reopens;

@@ -4,8 +4,10 @@
 
 #include "bridge/dds/publisher.hpp"
 #include "bridge/link_status.hpp"
+#include "bridge/standby/line_voice.hpp"
 #include "daemon/address_watch.hpp"
 #include "daemon/config/config.hpp"
+#include "daemon/read_before.hpp"
 
 #include <boost/asio/io_context.hpp>
 
@@ -34,11 +36,22 @@ public:
     bool is_open() const { return publisher_.has_value(); }
     const port_status& port() const { return port_; }  // "dds": what was published and dropped
 
+    // Of a pair: whether this member may answer and publish now, and with which strength of ownership.
+    void obey(const line_voice& voice) { voice_ = &voice; }
+    void assert_liveliness();
+    void set_strength(std::int32_t strength);
+
+    // What both members of a pair would say alike, only the active one says.
     template <class... What>
     void publish(const What&... what)
     {
-        if (publisher_)
+        if (publisher_ && (voice_ == nullptr || voice_->may_speak(now())))
             publisher_->publish(what...);
+    }
+    void publish(const gateway_status& status)
+    {
+        if (publisher_)
+            publisher_->publish(status);
     }
 
 private:
@@ -50,6 +63,9 @@ private:
 
     dds_settings settings_;
     dds_identity identity_;
+    std::optional<duration> shared_lease_;  // of a pair
+    std::int32_t strength_ = 0;
+    const line_voice* voice_ = nullptr;
     std::optional<dds_publisher> publisher_;
     std::vector<std::function<void()>> parts_;
     address_watch addresses_;

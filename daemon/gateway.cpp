@@ -5,6 +5,7 @@
 #include "daemon/control_path.hpp"
 #include "daemon/line_events.hpp"
 #include "daemon/log.hpp"
+#include "daemon/pair_command.hpp"
 #include "daemon/scan/scan_command.hpp"
 #include "daemon/service_notify.hpp"
 
@@ -45,6 +46,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_copies();
     make_points();
     make_statuses();
+    make_standby();
     learned_.remember(lines_);
 }
 
@@ -210,6 +212,8 @@ bool gateway::start()
         links_->start();
     upstream_.start();
     points_.start();
+    if (standby_)
+        standby_->start();
     asio::co_spawn(loop_, every_second(), asio::detached);
     if (const auto period = service::watchdog_period())
         asio::co_spawn(loop_, keep_watchdog(*period), asio::detached);
@@ -219,16 +223,21 @@ bool gateway::start()
 
 bool gateway::listen()
 {
-    for (const auto& server : servers_) {
-        if (const auto ec = server->listen()) {
-            plcgw::say(line_event::severity::error, "listener.failed", server->port().port,
-                       "MODBUS TCP cannot listen on {}: {}. {}", server->endpoint(), ec.message(), cure_of(ec));
-            return false;
-        }
-        plcgw::say(line_event::severity::info, "listener.open", server->port().port, "MODBUS TCP listens on {}",
-                   server->endpoint());
-        asio::co_spawn(loop_, server->accept_clients(), asio::detached);
+    if (standby_)
+        return true;  // when it is active
+    return std::all_of(servers_.begin(), servers_.end(), [this](const auto& server) { return listen(*server); });
+}
+
+bool gateway::listen(tcp_server& server)
+{
+    const std::string& port = server.port().port;
+    if (const auto ec = server.listen()) {
+        plcgw::say(line_event::severity::error, "listener.failed", port, "MODBUS TCP cannot listen on {}: {}. {}",
+                   server.endpoint(), ec.message(), cure_of(ec));
+        return false;
     }
+    plcgw::say(line_event::severity::info, "listener.open", port, "MODBUS TCP listens on {}", server.endpoint());
+    asio::co_spawn(loop_, server.accept_clients(), asio::detached);
     return true;
 }
 
@@ -247,6 +256,8 @@ nlohmann::json gateway::command(const nlohmann::json& what)
 {
     if (what.value("command", "") == "scan")
         return scan_command(lines_, what, now());
+    if (what.value("command", "") == "pair")
+        return pair_command(standby_.get(), what);
     nlohmann::json reply = control_command(plcs_, links_.get(), what, now());
     settle_memory();
     return reply;
@@ -275,8 +286,10 @@ asio::awaitable<void> gateway::every_second()
     for (;;) {
         if (dds_.open())
             publish_everything();
-        for (const auto& line : lines_)
-            line->statuses.show(wall_now());
+        if (is_active())
+            for (const auto& line : lines_)
+                line->statuses.show(wall_now());
+        listen_again();
         settle_memory();
         blocks_.keep_silences(now(), config_.dds.longest_silence);
         blocks_.publish();
@@ -293,6 +306,10 @@ void gateway::show_status()
 {
     gateway_status status;
     status.started = started_;
+    if (standby_) {
+        status.role = standby_->role();
+        status.strength = standby_->strength();
+    }
     for (const auto& line : lines_) {
         status.routes_up += static_cast<std::uint32_t>(line->routes.routes_up());
         status.routes_total += static_cast<std::uint32_t>(line->routes.routes_total());
@@ -302,7 +319,9 @@ void gateway::show_status()
         status.routes_total += static_cast<std::uint32_t>(line->content.routes_total());
     }
     dds_.publish(status);
-    const std::string text = fmt::format("{} of {} routes up", status.routes_up, status.routes_total);
+    std::string text = fmt::format("{} of {} routes up", status.routes_up, status.routes_total);
+    if (standby_)
+        text = fmt::format("{}, {}", to_string(status.role), text);
     if (text != shown_status_)
         service::status(shown_status_ = text);
 }

@@ -12,6 +12,7 @@
 #include "daemon/points.hpp"
 #include "daemon/running_line.hpp"
 #include "daemon/server_line.hpp"
+#include "daemon/standby.hpp"
 #include "daemon/statuses.hpp"
 #include "daemon/tcp_server.hpp"
 #include "daemon/upstream.hpp"
@@ -27,8 +28,8 @@ public:
     gateway(const gateway&) = delete;
     gateway& operator=(const gateway&) = delete;
 
-    bool start();                                   // false when a server could not listen: said in the log
-    void keep_learned() { learned_.keep(lines_); }  // at the end: with the times that were measured
+    bool start();  // false when a server could not listen: said in the log
+    void leave();  // at the end: another member may go on, and what was learned is kept
 
 private:
     void make_plcs(const std::string& folder);
@@ -41,10 +42,16 @@ private:
     void make_points();
     void make_plc_links();
     void make_statuses();
+    void make_standby();
+    void begin_work();
+    void end_work();
+    bool is_active() const { return !standby_ || standby_->is_active(); }
     plc::simulated_plc* find_plc(const std::string& name);
     running_line* find_line(const std::string& name);
     unit_target target_of(const unit_config& unit);
     bool listen();
+    bool listen(tcp_server& server);
+    void listen_again();  // after a second, where it failed
     void start_control();
 
     // The one place where changes are drained, after an exchange on a line or a client's requests.
@@ -81,6 +88,7 @@ private:
     published_blocks blocks_;
     published_points points_;
     published_statuses statuses_;
+    std::unique_ptr<standby_member> standby_;  // null: no pair
     std::optional<control_server> control_;
     asio::steady_timer second_;
     asio::steady_timer watchdog_;

@@ -17,7 +17,10 @@ void gateway::settle(running_line& line)
     learned_.keep_if_new(line, lines_);
     line.gate.deliver();
     through_.deliver();
-    line.statuses.show(wall_now());
+    if (is_active())
+        line.statuses.show(wall_now());
+    if (standby_)
+        standby_->settled(line);
     settle_memory();
     say(line.routes.take_samples(now()));
     statuses_.look_at_states(now(), wall_now());
@@ -44,6 +47,8 @@ void gateway::say(const std::vector<sample>& samples)
 {
     for (const sample& each : samples)
         dds_.publish(each);
+    if (standby_)
+        standby_->said(samples);
     if (samples.empty())
         return;
     blocks_.qualities_changed();
@@ -61,6 +66,8 @@ void gateway::settle_memory()
         changed_any = true;
         note_writes();  // copies write, too
     }
+    if (standby_)
+        standby_->publish();
     if (!changed_any)
         return;
     if (links_)
@@ -95,12 +102,14 @@ bool gateway::drain_changes()
                 if (line->routes.memory_changed(*plc, changed))
                     line->driver->wake();
             for (const auto& line : message_lines_)
-                if (line->content.memory_changed(*plc, changed, now()))
+                if (is_active() && line->content.memory_changed(*plc, changed, now()))
                     line->wake();
             blocks_.memory_changed(*plc, changed);
             points_.memory_changed(*plc, changed);
             if (links_)
                 links_->memory_changed(*plc, changed);
+            if (standby_)
+                standby_->memory_changed(*plc, changed);
         }
     }
     return changed_any;

@@ -29,6 +29,7 @@ public:
     // True when it is open now; false after a failed attempt and the pause behind it, so that the caller can say so.
     virtual asio::awaitable<bool> open() = 0;
     virtual void close(const boost::system::error_code& why) = 0;
+    virtual void rest() = 0;  // closed on purpose: open() comes at once
 
     // Fails with asio::error::timed_out when it takes far longer than the bytes need: driver or network hang.
     virtual asio::awaitable<boost::system::error_code> write(bytes adu) = 0;

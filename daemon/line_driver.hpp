@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bridge/link_status.hpp"
+#include "bridge/standby/line_voice.hpp"
 
 #include <boost/asio/awaitable.hpp>
 
@@ -11,8 +12,11 @@ class line_driver {
 public:
     virtual ~line_driver() = default;
     virtual boost::asio::awaitable<void> run() = 0;  // until the io_context ends
-    virtual void wake() = 0;                         // something is due at once
+    virtual void wake() = 0;                         // something is due at once, or the voice has changed
     virtual const port_status& port() const = 0;     // what carries it
+
+    // Before run(): asks only while that says so, and tells it what is heard. Server lines never ask.
+    virtual void obey(line_voice&) {}
 };
 
 }  // namespace plcgw

@@ -3,6 +3,7 @@
 #include "daemon/dds_commands.hpp"
 #include "daemon/link_time_command.hpp"
 #include "daemon/map_command.hpp"
+#include "daemon/pair_command.hpp"
 #include "daemon/plan_command.hpp"
 #include "daemon/plc_command.hpp"
 #include "daemon/plc_link_command.hpp"
@@ -119,6 +120,10 @@ int run_command(int argc, char** argv)
     plcgw::scan_options scanned;
     CLI::App* const scan = app.add_subcommand("scan", "Look for stations on a line");
     plcgw::add_scan(*scan, scanned);
+    std::string pair_action = "show";
+    CLI::App* const pair = app.add_subcommand("pair", "Show both members of a hot-standby pair, or change their roles");
+    pair->add_option("action", pair_action, "show or switch")->capture_default_str();
+    pair->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
 
     const CLI::App* const schema = app.add_subcommand("schema", "Print the JSON Schema of the configuration");
 
@@ -144,6 +149,8 @@ int run_command(int argc, char** argv)
         return plcgw::plc_link_client(socket);
     if (*scan)
         return plcgw::scan_stations(scanned);
+    if (*pair)
+        return plcgw::pair_client(socket, pair_action);
     if (*map)
         return plcgw::show_map(mapped);
     if (*link_time)

@@ -22,7 +22,7 @@ general_purpose::marked_characters marks_of(const line_config& line)
 message_line::message_line(asio::io_context& loop, line_config config, messages::line_messages messages,
                            std::function<void()> settle)
     : content(std::move(messages)), config_(std::move(config)), settle_(std::move(settle)),
-      connection_(make_connection(loop, config_)), marks_(marks_of(config_)), echo_(echo_of(config_))
+      connection_(make_connection(loop, config_)), marks_(marks_of(config_)), echo_(echo_of(config_)), gate_(loop)
 {
 }
 
@@ -62,7 +62,9 @@ void message_line::wake()
 asio::awaitable<error_code> message_line::serve()
 {
     for (;;) {
-        auto question = content.next(now(), wall_now());
+        std::optional<messages::line_messages::question> question;
+        if (gate_.is_open())
+            question = content.next(now(), wall_now());
         error_code ec;
         if (question)
             ec = co_await exchange(std::move(*question));
@@ -102,7 +104,9 @@ asio::awaitable<error_code> message_line::listen()
 {
     take_messages();  // what an exchange left
     settle_();
-    const time_point until = std::min(content.wake_at(), content.framer().deadline());
+    constexpr duration standby_round = std::chrono::milliseconds(100);
+    const time_point due = gate_.is_open() ? content.wake_at() : now() + standby_round;
+    const time_point until = std::min(due, content.framer().deadline());
     idle_ = true;
     const auto size = co_await connection_->read(until, asio::buffer(received_));
     idle_ = false;
@@ -142,6 +146,11 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
             break;
         error_code ec;
         if (const auto* to_send = std::get_if<general_purpose::exchange::send>(&action)) {
+            if (!gate_.is_open()) {
+                content.interrupted(question);
+                line_free_from_ = asking.line_free_from();
+                co_return error_code{};
+            }
             const time_point started = now();
             if (question.answer == expect::nothing)
                 echo_.sent(to_send->message, false, started + std::chrono::hours(1));  // in no doubt

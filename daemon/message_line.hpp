@@ -1,6 +1,7 @@
 // Drives one general-purpose line: hears its messages, and sends what is due.
 #pragma once
 
+#include "daemon/answer_gate.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
 #include "daemon/line_messages_of.hpp"
@@ -18,6 +19,7 @@ public:
     message_line(asio::io_context& loop, line_config config, messages::line_messages content,
                  std::function<void()> settle);
 
+    void obey(line_voice& voice) override { gate_.obey(voice); }  // of a pair: the standby listens
     asio::awaitable<void> run() override;
     void wake() override;
     const port_status& port() const override { return connection_->meter().status(); }
@@ -47,6 +49,7 @@ private:
     bool said_overruns_ = false;
     time_point line_free_from_{};
     bool idle_ = false;
+    answer_gate gate_;
 };
 
 }  // namespace plcgw

@@ -13,7 +13,7 @@ constexpr duration longest_pause = std::chrono::seconds(1);
 mewtocol_server::mewtocol_server(asio::io_context& loop, line_config config, std::vector<mewtocol_station> stations,
                                  std::function<void()> settle)
     : config_(std::move(config)), stations_(std::move(stations)), settle_(std::move(settle)),
-      connection_(make_connection(loop, config_)), echo_(config_.echo), in_(longest_pause), wait_(loop)
+      connection_(make_connection(loop, config_)), echo_(config_.echo), in_(longest_pause), wait_(loop), gate_(loop)
 {
 }
 
@@ -27,6 +27,7 @@ void mewtocol_server::reset(std::size_t station)
 asio::awaitable<void> mewtocol_server::run()
 {
     for (;;) {
+        co_await gate_.wait();
         const bool is_open = co_await connection_->open();
         settle_();
         if (!is_open)
@@ -34,14 +35,26 @@ asio::awaitable<void> mewtocol_server::run()
         in_ = mewtocol::line_framer(longest_pause);
         echo_ = echo_filter(config_.echo);
         const error_code ec = co_await serve();
-        connection_->close(ec);
+        if (ec == not_active)
+            connection_->rest();
+        else
+            connection_->close(ec);
         settle_();
     }
+}
+
+void mewtocol_server::wake()
+{
+    gate_.wake();
+    if (!gate_.is_open())
+        connection_->interrupt();
 }
 
 asio::awaitable<error_code> mewtocol_server::serve()
 {
     for (;;) {
+        if (!gate_.is_open())
+            co_return not_active;
         const time_point until = in_.deadline();
         const auto size = co_await connection_->read(until, asio::buffer(received_));
         const time_point at = now();
@@ -88,6 +101,8 @@ asio::awaitable<error_code> mewtocol_server::reply(buffer characters, time_point
         if (resets != resets_)
             co_return error_code{};
     }
+    if (!gate_.is_open())
+        co_return not_active;
     echo_.sent(characters, is_like_request(characters), now() + echo_time(config_, characters.size()));
     const error_code ec = co_await connection_->write(characters);
     connection_->meter().frames_sent();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bridge/services/mewtocol_station.hpp"
+#include "daemon/answer_gate.hpp"
 #include "daemon/fp7_line_ports.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
@@ -20,8 +21,9 @@ public:
                     std::function<void()> settle);
 
     asio::awaitable<void> run() override;
-    void wake() override {}
+    void wake() override;
     const port_status& port() const override { return connection_->meter().status(); }
+    void obey(line_voice& voice) override { gate_.obey(voice); }  // of a pair: the standby does not answer
 
     // The channel reset of a station's port: a command half heard and an answer not yet begun are given up.
     void reset(std::size_t station);
@@ -42,6 +44,7 @@ private:
     unsigned resets_ = 0;
     fp7_line_ports ports_;
     asio::steady_timer wait_;
+    answer_gate gate_;
     std::array<std::uint8_t, 4096> received_{};
 };
 

@@ -13,6 +13,7 @@ namespace plcgw {
 namespace {
 
 constexpr duration open_again = std::chrono::seconds(1);
+constexpr duration pair_round = std::chrono::milliseconds(100);  // that the role is looked at
 
 }  // namespace
 
@@ -22,7 +23,7 @@ plc_links::plc_links(asio::io_context& loop, const gateway_config& config, wall_
       settings_(config.dds.settings), self_{config.gateway,
                                             config.dds.member.empty() ? asio::ip::host_name() : config.dds.member,
                                             started},
-      settle_(std::move(settle)), wakes_(loop), timer_(loop)
+      settle_(std::move(settle)), wakes_(loop), timer_(loop), gate_(loop)
 {
 }
 
@@ -74,17 +75,31 @@ void plc_links::close()
 asio::awaitable<void> plc_links::keep_time()
 {
     for (;;) {
+        co_await gate_.wait();
         while (!port_ && !open()) {
             timer_.expires_after(open_again);
             co_await timer_.async_wait(no_throw);
         }
+        co_await take_part();
+        if (gate_.is_open())
+            continue;  // closed for a new domain
+        // The others hear at once that its stations are gone, and take those of the other member in.
+        close();
+        for (plc_link_exchange& link : links_)
+            link.reset();
+    }
+}
+
+asio::awaitable<void> plc_links::take_part()
+{
+    while (port_ && gate_.is_open()) {
         // Words that came while this process stood still came in time: before somebody is given up.
         receive();
         for (plc_link_exchange& link : links_)
             link.look(now());
         log_events();
         send();
-        timer_.expires_at(wake_at());
+        timer_.expires_at(gate_.is_ever_closed() ? std::min(wake_at(), now() + pair_round) : wake_at());
         co_await timer_.async_wait(no_throw);
     }
 }
@@ -101,6 +116,8 @@ asio::awaitable<void> plc_links::listen()
 
 void plc_links::receive()
 {
+    if (!port_ || !gate_.is_open())
+        return;
     const std::vector<plc_link_news> news = port_->take();
     for (const plc_link_news& each : news)
         for (plc_link_exchange& link : links_) {
@@ -122,7 +139,7 @@ void plc_links::memory_changed(const plc::simulated_plc& plc, const plc::change&
 
 void plc_links::send()
 {
-    if (!port_)
+    if (!port_ || !gate_.is_open())
         return;
     for (plc_link_exchange& link : links_)
         if (const auto area = link.next(now(), wall_now()))

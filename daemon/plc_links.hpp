@@ -3,6 +3,7 @@
 
 #include "bridge/dds/plc_link_port.hpp"
 #include "bridge/plc_link_exchange.hpp"
+#include "daemon/answer_gate.hpp"
 #include "daemon/config/config.hpp"
 #include "daemon/fp7_ports.hpp"
 #include "daemon/read_before.hpp"
@@ -22,7 +23,8 @@ public:
     // The link is what COM.1 of the PLC does, unless something else is that already.
     void add(const plc_link_config& link, plc::simulated_plc& plc, fp7_ports& ports);
     void start();
-    void close();  // until it opens again, by itself: DDS gets a new domain
+    void close();                                              // until it opens again, by itself: DDS gets a new domain
+    void obey(const line_voice& voice) { gate_.obey(voice); }  // of a pair: only the active member takes part
 
     const std::vector<plc_link_exchange>& all() const { return links_; }
     bool runs() const { return port_.has_value(); }  // false while DDS does not work
@@ -32,6 +34,7 @@ public:
 
 private:
     asio::awaitable<void> keep_time();
+    asio::awaitable<void> take_part();
     asio::awaitable<void> listen();
     bool open();
     void reset(std::size_t index);
@@ -47,6 +50,7 @@ private:
     std::optional<plc_link_port> port_;
     asio::posix::stream_descriptor wakes_;  // the port has something
     asio::steady_timer timer_;
+    answer_gate gate_;
     bool failed_ = false;  // to open, and said so
 };
 

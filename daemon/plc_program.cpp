@@ -22,12 +22,14 @@ plc::adprw_outcome outcome_of(const plc::adprw_question& question,
 
 plc_program::plc_program(asio::io_context& loop, plc::adprw_runner runner, forward_gate& line,
                          const modbus::serial_options& timing, std::function<void()> settle)
-    : runner_(std::move(runner)), line_(line), timing_(timing), settle_(std::move(settle)), pause_(loop)
+    : runner_(std::move(runner)), line_(line), timing_(timing), settle_(std::move(settle)), pause_(loop), gate_(loop)
 {
 }
 
 void plc_program::look()
 {
+    if (!gate_.is_open())
+        return;
     runner_.scan();
     pause_.cancel();
 }
@@ -35,6 +37,7 @@ void plc_program::look()
 asio::awaitable<void> plc_program::run()
 {
     for (;;) {
+        co_await gate_.wait();
         std::optional<plc::adprw_question> question = runner_.next(now());
         settle_();  // also a refused instruction changes devices
         if (question) {

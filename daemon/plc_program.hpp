@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bridge/plc/adprw_runner.hpp"
+#include "daemon/answer_gate.hpp"
 #include "daemon/forward_gate.hpp"
 
 #include <boost/asio/io_context.hpp>
@@ -16,8 +17,9 @@ public:
     plc_program(asio::io_context& loop, plc::adprw_runner runner, forward_gate& line,
                 const modbus::serial_options& timing, std::function<void()> settle);
 
-    asio::awaitable<void> run();  // until the io_context ends
-    void look();                  // devices changed: a contact may have closed
+    void obey(const line_voice& voice) { gate_.obey(voice); }  // of a pair: the standby's program rests
+    asio::awaitable<void> run();                               // until the io_context ends
+    void look();                                               // devices changed: a contact may have closed
 
 private:
     asio::awaitable<void> ask(plc::adprw_question question);
@@ -27,6 +29,7 @@ private:
     modbus::serial_options timing_;
     std::function<void()> settle_;
     asio::steady_timer pause_;
+    answer_gate gate_;
 };
 
 }  // namespace plcgw

@@ -5,6 +5,7 @@
 #include "bridge/routes/client_line.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
+#include "daemon/line_ear.hpp"
 
 #include <array>
 #include <functional>
@@ -19,13 +20,14 @@ public:
     asio::awaitable<void> run() override;
     void wake() override;
     const port_status& port() const override { return connection_->meter().status(); }
+    void obey(line_voice& voice) override { ear_.obey(voice); }
 
 protected:
     // Asks it, and tells the routes how it ended unless the port failed: that is said here.
     virtual asio::awaitable<boost::system::error_code> exchange(client_line::question question) = 0;
 
     // Does what a transaction says until it is done, or nobody wants to know any more: then it has no outcome but
-    // errc::timed_out. Fails with the port.
+    // errc::timed_out. Fails with the port, and with may_not_speak when another member of the pair is to ask now.
     template <class Transaction>
     asio::awaitable<boost::system::error_code> carry_out(Transaction& transaction,
                                                          const client_line::question& question);
@@ -41,14 +43,26 @@ protected:
 
 private:
     asio::awaitable<boost::system::error_code> serve();  // until the port fails
+    asio::awaitable<boost::system::error_code> ask(client_line::question question);
     asio::awaitable<boost::system::error_code> listen_until(time_point deadline);
     void note_echo();
 
     static const modbus::answer_fault& as_fault(const modbus::answer_fault& f) { return f; }
     static modbus::answer_fault as_fault(errc why) { return {why, {}}; }
 
+    // In the middle of it, since another member may ask now.
+    template <class Transaction>
+    boost::system::error_code left(const Transaction& transaction)
+    {
+        line_free_from_ = std::max({line_free_from_, transaction.line_free_from(), now() + gap_});
+        return may_not_speak;
+    }
+
+    static constexpr auto may_not_speak = asio::error::no_permission;
+
     std::function<void()> settle_;
     std::unique_ptr<line_connection> connection_;
+    line_ear ear_;
     std::array<std::uint8_t, 4096> received_{};
     duration gap_;
     bool idle_ = false;  // waiting until something is due
@@ -78,15 +92,20 @@ asio::awaitable<boost::system::error_code> polling_line::carry_out(Transaction& 
         if (const auto* to_send = std::get_if<typename Transaction::send>(&action)) {
             if (again && !routes_.is_wanted(question))
                 co_return boost::system::error_code{};
+            if (!ear_.may_speak())
+                co_return left(transaction);
             const time_point started = now();
             ec = co_await connection_->write(to_send->adu);
             transaction.sent(started);
             connection_->meter().frames_sent();
             waits = is_answered;
+            ear_.spoke(to_send->adu);
         }
         else {
             const time_point until = std::get<typename Transaction::wait>(action).until;
             const auto size = co_await connection_->read(until, asio::buffer(received_));
+            if (size && !ear_.heard(bytes(received_).first(*size)))
+                co_return left(transaction);
             if (size)
                 transaction.feed(now(), bytes(received_).first(*size));
             else if (size.error() != asio::error::timed_out)

@@ -101,7 +101,7 @@ int run(const std::filesystem::path& config_file)
     if (!running.start())
         return cannot_listen;
     loop.run();
-    running.keep_learned();
+    running.leave();
     return 0;
 }
 

@@ -116,6 +116,13 @@ void serial_connection::close(const error_code& why)
         next_pause_ = first_pause;
 }
 
+void serial_connection::rest()
+{
+    error_code ignored;
+    port_.close(ignored);
+    log::info("line {}: {} is closed: the other member of the pair answers", line_.name, line_.device);
+}
+
 asio::awaitable<error_code> serial_connection::write(bytes adu)
 {
     guard_.arm(now() + character_time(format_of(line_), adu.size()) + write_slack);

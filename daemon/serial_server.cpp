@@ -12,7 +12,7 @@ serial_server::serial_server(asio::io_context& loop, line_config config, std::ve
                              serial_forwarder others, std::function<void()> settle)
     : config_(std::move(config)), executor_(loop.get_executor()), stations_(std::move(stations)),
       others_(std::move(others)), settle_(std::move(settle)), connection_(make_connection(loop, config_)),
-      echo_(config_.echo), in_(make_framer()), gap_(loop)
+      echo_(config_.echo), in_(make_framer()), gap_(loop), gate_(loop)
 {
 }
 
@@ -47,6 +47,7 @@ void serial_server::reset()
 asio::awaitable<void> serial_server::run()
 {
     for (;;) {
+        co_await gate_.wait();
         const bool is_open = co_await connection_->open();
         if (!is_open) {
             for (modbus_station& each : stations_)
@@ -59,14 +60,26 @@ asio::awaitable<void> serial_server::run()
         settle_();
         const error_code ec = co_await serve();
         others_.give_up();
-        connection_->close(ec);
+        if (ec == not_active)
+            connection_->rest();
+        else
+            connection_->close(ec);
         settle_();
     }
+}
+
+void serial_server::wake()
+{
+    gate_.wake();
+    if (!gate_.is_open())
+        connection_->interrupt();
 }
 
 asio::awaitable<error_code> serial_server::serve()
 {
     for (;;) {
+        if (!gate_.is_open())
+            co_return not_active;
         if (auto answer = others_.take_answer()) {
             const error_code ec = co_await reply_forwarded(std::move(*answer));
             if (ec)
@@ -160,6 +173,8 @@ asio::awaitable<error_code> serial_server::send(modbus::frame content, std::uint
     co_await gap_.async_wait(no_throw);
     if (resets != resets_)
         co_return error_code{};
+    if (!gate_.is_open())
+        co_return not_active;
     const bool like_request = modbus::parse_request(content.pdu).has_value();
     const buffer adu = modbus::encode_adu(framing_of(config_), content, delimiter);
     echo_.sent(adu, like_request, now() + echo_time(config_, adu.size()));

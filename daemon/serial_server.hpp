@@ -3,6 +3,7 @@
 #pragma once
 
 #include "bridge/services/modbus_station.hpp"
+#include "daemon/answer_gate.hpp"
 #include "daemon/fp7_line_ports.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
@@ -22,8 +23,9 @@ public:
                   serial_forwarder others, std::function<void()> settle);
 
     asio::awaitable<void> run() override;
-    void wake() override {}
+    void wake() override;
     const port_status& port() const override { return connection_->meter().status(); }
+    void obey(line_voice& voice) override { gate_.obey(voice); }  // of a pair: the standby does not answer
 
     // The channel reset of an FP7's port: a request half heard and a reply not yet begun are given up.
     void reset();
@@ -52,6 +54,7 @@ private:
     unsigned resets_ = 0;
     fp7_line_ports ports_;
     asio::steady_timer gap_;
+    answer_gate gate_;
     std::array<std::uint8_t, 1024> received_{};
 };
 

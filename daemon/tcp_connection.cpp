@@ -83,6 +83,14 @@ void tcp_connection::close(const error_code& why)
     say_absent(why);
 }
 
+void tcp_connection::rest()
+{
+    error_code ignored;
+    socket_.close(ignored);
+    log::info("line {}: disconnected from {}:{}: the other member of the pair asks", line_.name, line_.host,
+              line_.port);
+}
+
 void tcp_connection::say_absent(const error_code& why)
 {
     meter_.lost(wall_now(), fmt::format("no connection to {}:{}: {}", line_.host, line_.port, why.message()));

@@ -13,6 +13,7 @@ public:
 
     asio::awaitable<bool> open() override;
     void close(const boost::system::error_code& why) override;
+    void rest() override;
     asio::awaitable<boost::system::error_code> write(bytes adu) override;
     asio::awaitable<boost::system::result<std::size_t>> read(time_point deadline, asio::mutable_buffer into) override;
     void interrupt() override { guard_.interrupt(); }

@@ -6,8 +6,15 @@ namespace plcgw {
 
 using boost::system::error_code;
 
+namespace {
+
+constexpr auto may_not_speak = asio::error::no_permission;
+
+}
+
 tcp_line::tcp_line(asio::io_context& loop, line_config config, client_line& routes, std::function<void()> settle)
-    : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), connection_(loop, config_)
+    : config_(std::move(config)), routes_(routes), settle_(std::move(settle)), connection_(loop, config_),
+      ear_(loop, config_, routes_)
 {
 }
 
@@ -15,21 +22,32 @@ asio::awaitable<void> tcp_line::run()
 {
     routes_.start(now());
     for (;;) {
+        while (!ear_.look()) {
+            settle_();
+            co_await ear_.wait();
+        }
         const bool is_open = co_await connection_.open();
+        error_code ec;
         if (is_open) {
             in_ = {};
-            routes_.port_opened();
-            const error_code ec = co_await serve();
+            ear_.opened();
+            ec = co_await serve();
+            ear_.closed();
             give_up_all();
-            connection_.close(ec);
+            if (ec == may_not_speak)
+                connection_.rest();
+            else
+                connection_.close(ec);
         }
-        routes_.port_lost(connection_.absence());
+        if (ec != may_not_speak)
+            routes_.port_lost(connection_.absence());
         settle_();
     }
 }
 
 void tcp_line::wake()
 {
+    ear_.wake();
     if (idle_)
         connection_.interrupt();
 }
@@ -37,6 +55,8 @@ void tcp_line::wake()
 asio::awaitable<error_code> tcp_line::serve()
 {
     for (;;) {
+        if (!ear_.look())
+            co_return may_not_speak;
         buffer out;
         ask_again_or_fail(out);
         ask_what_is_due(out);
@@ -64,6 +84,8 @@ asio::awaitable<error_code> tcp_line::listen()
     idle_ = false;
     if (!size && size.error() != asio::error::timed_out)
         co_return size.error();
+    if (!ear_.may_speak())
+        co_return may_not_speak;  // what came may have waited for this process to go on
     if (size && !take_answers(bytes(received_).first(*size)))
         co_return make_error_code(errc::bad_header);
     co_return error_code{};

@@ -4,6 +4,7 @@
 
 #include "bridge/routes/client_line.hpp"
 #include "daemon/line_driver.hpp"
+#include "daemon/line_ear.hpp"
 #include "daemon/tcp_connection.hpp"
 #include "protocols/modbus/tcp_questions.hpp"
 
@@ -21,6 +22,7 @@ public:
     asio::awaitable<void> run() override;
     void wake() override;
     const port_status& port() const override { return connection_.meter().status(); }
+    void obey(line_voice& voice) override { ear_.obey(voice); }
 
 private:
     struct under_way {
@@ -43,6 +45,7 @@ private:
     client_line& routes_;
     std::function<void()> settle_;
     tcp_connection connection_;
+    line_ear ear_;
     modbus::mbap_framer in_;
     modbus::tcp_questions open_;
     std::map<key, under_way> questions_;

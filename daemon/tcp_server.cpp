@@ -65,19 +65,34 @@ error_code tcp_server::listen()
         return ec;
     if (acceptor_.set_option(asio::socket_base::reuse_address(true), ec); ec)
         return ec;
-    if (acceptor_.bind(at, ec); ec)
-        return ec;
-    acceptor_.listen(asio::socket_base::max_listen_connections, ec);
+    acceptor_.bind(at, ec);
     if (!ec)
+        acceptor_.listen(asio::socket_base::max_listen_connections, ec);
+    error_code ignored;
+    if (ec)
+        acceptor_.close(ignored);  // a member of a pair tries again
+    else
         service_.meter.opened(wall_now());
     return ec;
 }
 
+void tcp_server::stop()
+{
+    ++turn_;
+    error_code ignored;
+    acceptor_.close(ignored);
+    for (const auto& each : std::exchange(sessions_, {}))
+        if (const auto session = each.lock())
+            session->dismiss();
+}
+
 asio::awaitable<void> tcp_server::accept_clients()
 {
-    for (;;) {
+    for (const unsigned turn = turn_; turn == turn_;) {
         tcp::endpoint from;
         auto [ec, client] = co_await acceptor_.async_accept(from, no_throw);
+        if (turn != turn_)
+            co_return;
         if (ec) {
             if (service_.may_complain())
                 log::warning("MODBUS TCP {}: a client could not be accepted: {}", endpoint(), ec.message());
@@ -126,6 +141,10 @@ asio::awaitable<void> tcp_server::serve(tcp::socket client, std::string peer, st
     auto framing = make_framing();
     const auto session =
         std::make_shared<tcp_session>(std::move(client), std::move(peer), std::move(framing), service_);
+    if (service_.voice != nullptr) {
+        std::erase_if(sessions_, [](const auto& each) { return each.expired(); });
+        sessions_.push_back(session);
+    }
     co_await session->run();
     place.reset();
 }

@@ -18,8 +18,12 @@ public:
     tcp_server(asio::io_context& loop, tcp_server_config config, const unit_table& units, through_writes& through,
                std::function<void()> settle);
 
+    void obey(const line_voice& voice) { service_.voice = &voice; }
+
     boost::system::error_code listen();
-    asio::awaitable<void> accept_clients();  // until the io_context ends
+    asio::awaitable<void> accept_clients();  // until stop(), or the io_context ends
+    bool listens() const { return acceptor_.is_open(); }
+    void stop();  // the clients are disconnected: they find the other member of the pair
 
     const port_status& port() const { return service_.meter.status(); }
     const std::string& endpoint() const { return service_.endpoint; }  // "127.0.0.1:1502", for the log
@@ -36,6 +40,8 @@ private:
     asio::steady_timer pause_;
     std::shared_ptr<unsigned> clients_ = std::make_shared<unsigned>(0);  // outlives the server in suspended sessions
     bool refusing_ = false;
+    unsigned turn_ = 0;                                 // of listening
+    std::vector<std::weak_ptr<tcp_session>> sessions_;  // of a pair
 };
 
 }  // namespace plcgw

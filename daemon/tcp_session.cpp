@@ -90,6 +90,10 @@ asio::awaitable<void> tcp_session::run()
 // What arrived together is answered together, in its order, as far as it needs no line.
 void tcp_session::take_questions()
 {
+    if (!service_.may_answer()) {
+        close();
+        return;
+    }
     while (is_open_ && good_ && !is_full()) {
         const auto next = framing_->next(now());
         if (!next)
@@ -247,6 +251,8 @@ bool tcp_session::has_hung_up()
 
 void tcp_session::flush()
 {
+    if (!service_.may_answer())
+        replies_.clear();
     if (writing_ || !is_open_ || replies_.empty())
         return;
     sending_.swap(replies_);

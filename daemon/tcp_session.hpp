@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bridge/port_meter.hpp"
+#include "bridge/standby/line_voice.hpp"
 #include "daemon/read_before.hpp"
 #include "daemon/tcp_framing.hpp"
 #include "daemon/through_writes.hpp"
@@ -24,12 +25,15 @@ struct tcp_service {
     port_meter meter;      // of all its clients
     unit_table units;
     through_writes* through = nullptr;
-    std::function<void()> settle;  // called after replies went out, to drain what the requests changed
+    std::function<void()> settle;       // called after replies went out, to drain what the requests changed
+    const line_voice* voice = nullptr;  // of a pair: answers only while that says so
     duration idle_timeout{};
     unsigned max_outstanding = 1;  // forwarded requests of one client at a time
 
     // Some in each period: a client that sends nonsense all the time does not fill the log.
     bool may_complain();
+
+    bool may_answer() const { return voice == nullptr || voice->may_speak(now()); }
 
 private:
     time_point complaints_since_{};
@@ -45,6 +49,7 @@ public:
                 tcp_service& service);
 
     asio::awaitable<void> run();  // until the client leaves, or has to
+    void dismiss() { close(); }   // another member of the pair answers
 
 private:
     struct forwarded {

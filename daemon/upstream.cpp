@@ -38,6 +38,11 @@ boost::asio::awaitable<void> upstream_watch::keep_time()
         const time_point at = now();
         timer_.expires_at(std::min(guards_.wake_at(), at + idle));
         co_await timer_.async_wait(no_throw);
+        if (!gate_.is_open()) {
+            co_await gate_.wait();
+            guards_.start(now());  // whoever writes has his whole time
+            continue;
+        }
         guards_.look(now());
         log_events();
         settle_();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bridge/routes/upstream_guards.hpp"
+#include "daemon/answer_gate.hpp"
 #include "daemon/running_line.hpp"
 
 #include <boost/asio/awaitable.hpp>
@@ -13,13 +14,14 @@ class upstream_watch {
 public:
     // settle: called after safe values were put into a memory.
     upstream_watch(boost::asio::io_context& loop, std::function<void()> settle)
-        : loop_(loop), settle_(std::move(settle)), timer_(loop)
+        : loop_(loop), settle_(std::move(settle)), timer_(loop), gate_(loop)
     {
     }
 
     void add(const route_config& from, const find_plc& plc);
     void start();
-    void written();  // somebody wrote to a PLC
+    void obey(const line_voice& voice) { gate_.obey(voice); }  // of a pair: the standby guards nothing
+    void written();                                            // somebody wrote to a PLC
 
 private:
     boost::asio::awaitable<void> keep_time();
@@ -28,6 +30,7 @@ private:
     boost::asio::io_context& loop_;
     std::function<void()> settle_;
     boost::asio::steady_timer timer_;
+    answer_gate gate_;
     upstream_guards guards_;
 };
 

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,13 @@ namespace plcgw {
 // Create, use and destroy on one thread. Nothing here waits: not for a network, not for a reader that has stopped.
 class dds_publisher {
 public:
-    static dds_result<dds_publisher> create(const dds_settings& settings, dds_identity who);
+    // shared_lease: of a pair, whose members write the same registers and points with exclusive ownership. Then the
+    // liveliness of who writes is to be asserted more often than this.
+    static dds_result<dds_publisher> create(const dds_settings& settings, dds_identity who,
+                                            std::optional<duration> shared_lease = {});
+
+    void assert_liveliness();
+    void set_strength(std::int32_t strength);  // of ownership: subscribers hear the strongest
 
     dds_publisher(dds_publisher&&) noexcept;
     dds_publisher& operator=(dds_publisher&&) noexcept;

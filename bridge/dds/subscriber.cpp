@@ -72,7 +72,12 @@ bool take_some(dds_topic which, dds_entity_t reader, std::vector<dds_event>& eve
 struct dds_subscriber::state {
     int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     std::unique_ptr<dds_participant> participant;
-    std::array<dds_entity_t, dds_topics> readers{};
+    struct reader {
+        dds_topic which;
+        dds_entity_t entity;
+    };
+    // Of gateways alone and of pairs: a reader matches only writers of its own kind of ownership.
+    std::vector<reader> readers;
 
     ~state()
     {
@@ -100,15 +105,24 @@ dds_result<dds_subscriber> dds_subscriber::create(const dds_settings& settings)
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
         dds_create_listener(&made->descriptor), dds_delete_listener);
     dds_lset_data_available(listener.get(), on_data);
+    const auto create_reader = [&](dds_topic which, const qos_ptr& qos) {
+        const dds_entity_t topic = dds_create_topic(parent, &type_of(which), topic_name(which), nullptr, nullptr);
+        const dds_entity_t made_now =
+            topic < 0 ? topic : dds_create_reader(subscriber, topic, qos.get(), listener.get());
+        made->readers.push_back({which, made_now});
+        return made_now;
+    };
     // Events first: who hears the state does not miss one from then on.
     for (std::size_t i = 0; i < dds_topics; ++i) {
         const auto which = static_cast<dds_topic>(i);
-        dds_entity_t made_now = dds_create_topic(parent, &type_of(which), topic_name(which), nullptr, nullptr);
-        if (made_now >= 0)
-            made_now = dds_create_reader(subscriber, made_now, reader_qos(settings, which).get(), listener.get());
+        const qos_ptr qos = reader_qos(settings, which);
+        dds_entity_t made_now = create_reader(which, qos);
+        if (made_now >= 0 && is_shared_by_a_pair(which)) {
+            dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
+            made_now = create_reader(which, qos);
+        }
         if (made_now < 0)
             return creation_error("DDS reader of " + std::string(to_string(which)), made_now, log.text());
-        made->readers[i] = made_now;
     }
     return dds_subscriber(std::move(made));
 }
@@ -129,8 +143,8 @@ std::vector<dds_event> dds_subscriber::take(std::size_t most)
     bool more = true;
     while (more && events.size() < most) {
         more = false;
-        for (std::size_t i = 0; i < dds_topics; ++i)
-            more = take_some(static_cast<dds_topic>(i), state_->readers[i], events) || more;
+        for (const auto& each : state_->readers)
+            more = take_some(each.which, each.entity, events) || more;
     }
     if (more)
         wake(state_->descriptor);

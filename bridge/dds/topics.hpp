@@ -24,6 +24,9 @@ inline constexpr std::size_t dds_topics = 7;
 
 constexpr bool is_state(dds_topic which) { return which > dds_topic::event; }
 
+// Both members of a hot-standby pair write the same instances, one at a time. GatewayStatus has the member in its key.
+constexpr bool is_shared_by_a_pair(dds_topic which) { return is_state(which) && which != dds_topic::gateway_status; }
+
 constexpr std::string_view to_string(dds_topic which)
 {
     constexpr std::array<std::string_view, dds_topics> names{"SerialMessage", "Event",        "RegisterBlock", "Point",

@@ -78,6 +78,7 @@ std::optional<client_line::question> client_line::next(time_point now)
     if (turn->of != lane::forward && polls_.at(turn->item).period == duration{}) {
         row& of = routes_[polls_.at(turn->item).routes.front()];
         of.on_its_way = std::exchange(of.waiting, {});
+        of.heard_written.clear();
     }
     if (chosen)
         chosen->timing.delimiter = delimiter_of(chosen->unit, chosen->timing.delimiter);
@@ -225,25 +226,28 @@ void client_line::refused(const question& q, const station_refusal& why, time_po
 // All that one answer brings is of one moment.
 void client_line::served(const question& q, const station_answer& answer, time_point now, wall_time wall)
 {
-    const bool is_read = q.item.period != duration{};
-    for (const std::size_t each : q.item.routes) {
-        row& of = routes_[each];
-        if (!is_outdated(of, q)) {
-            const std::vector<std::uint16_t> words_before = of.content.words;
-            const std::size_t offset = is_read ? number(of.content.there) - number(q.item.first) : 0;
-            store(of.content, q.asked, is_read ? part_of(answer, offset, of.content.count) : answer);
-            was_stored(of, q, now);
-            of.changed = of.changed || of.content.words != words_before;
-        }
-        of.content.source = wall;
-        of.good_at = now;
-        if (is_read)
-            statistics_.was_read(of.station, each, now);
-        ++of.content.answers;
-        set_quality(of, quality::good, {});
-    }
-    if (is_read)
+    for (const std::size_t each : q.item.routes)
+        bring(routes_[each], q, answer, now, wall);
+    if (q.item.period != duration{})
         polls_.accepted(q.item, wall, now, schedule_);
+}
+
+void client_line::bring(row& of, const question& q, const station_answer& answer, time_point now, wall_time wall)
+{
+    const bool is_read = q.item.period != duration{};
+    if (!is_outdated(of, q)) {
+        const std::vector<std::uint16_t> words_before = of.content.words;
+        const std::size_t offset = is_read ? number(of.content.there) - number(q.item.first) : 0;
+        store(of.content, q.asked, is_read ? part_of(answer, offset, of.content.count) : answer);
+        was_stored(of, q, now);
+        of.changed = of.changed || of.content.words != words_before;
+    }
+    of.content.source = wall;
+    of.good_at = now;
+    if (is_read)
+        statistics_.was_read(of.station, index_of(of), now);
+    ++of.content.answers;
+    set_quality(of, quality::good, {});
 }
 
 void client_line::responded(const question& q, duration after)

@@ -16,6 +16,8 @@
 
 namespace plcgw {
 
+struct route_record;
+
 struct station {
     std::string name;
     station_number unit;
@@ -115,6 +117,14 @@ public:
     // From the end of a request to the end of its answer, measured on a serial line.
     void responded(const question& q, duration after);
 
+    // On a line of a pair. While somebody else speaks, nothing waits for the line: forwarded requests and clients that
+    // wait for a write fail at once. Whoever begins to speak spreads its polls as at the start.
+    void fall_silent();
+    void begin_to_speak(time_point now);
+    // What somebody else asked, and what the station said; nothing: nobody answered.
+    void overheard(station_number unit, const station_question& asked, const std::optional<station_answer>& answer,
+                   time_point now, wall_time wall);
+
     // What the stations refused to read in one request, numbered as they were given.
     const station_limits& limits_of(std::size_t station) const { return polls_.limits_of(station); }
     bool take_learned() { return polls_.take_learned(); }  // since the last call
@@ -147,6 +157,7 @@ public:
     std::vector<line_event> take_events() { return std::exchange(events_, {}); }
 
     const std::string& name() const { return name_; }
+    const std::vector<station>& stations() const { return stations_; }  // behind those of the routes any that was asked
     std::size_t routes_total() const { return routes_.size() - halves_; }
     std::size_t routes_up() const;  // of good quality, and those that had nothing to write yet
 
@@ -165,6 +176,10 @@ public:
     device_status device_of(std::size_t station) const;
     link_state device_state(std::size_t station) const { return statistics_.state_of(station); }
     bool take_device_changes() { return statistics_.take_changed(); }  // of a state, since the last call
+    // Of a standby whose stations cannot be heard: what the active member says of a row. And before it asks: what it
+    // would write again is forgotten.
+    void adopt(std::size_t number, const route_record& record, time_point now, wall_time wall);
+    void forget_written();
 
     // The worst quality and the oldest source among the read routes that fill these devices; good when there are none.
     void worsen(sample& of, const plc::simulated_plc& plc, plc::place at, std::size_t bits) const;
@@ -192,6 +207,8 @@ private:
         std::optional<plc::memory::watch> through{};
         std::vector<std::uint64_t> waiting{};   // for the next question
         std::vector<std::uint64_t> on_its_way;  // for the answer to the last one
+
+        std::vector<std::uint16_t> heard_written{};  // what somebody else wrote to the station, since we did
     };
 
     void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
@@ -211,6 +228,7 @@ private:
     question question_of_turn(const schedule::turn& turn, time_point now) const;
     void plan();
     void served(const question& q, const station_answer& answer, time_point now, wall_time wall);
+    void bring(row& of, const question& q, const station_answer& answer, time_point now, wall_time wall);
     void refused(const question& q, const station_refusal& why, time_point now, wall_time wall);
     bool is_idle(const schedule::turn& turn) const;
     void offer_scan(time_point now);
@@ -226,6 +244,12 @@ private:
     void through_ended(row& of, std::optional<modbus::exception_code> failed);
     void through_lost(row& of);
     std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;
+    void heard_silence(std::size_t station, const station_question& asked, time_point now);
+    void heard_refusal(std::size_t station, const station_question& asked, const station_refusal& why);
+    void heard_read(std::size_t station, const question& q, const station_answer& answer, time_point now,
+                    wall_time wall);
+    void heard_write(row& of, std::vector<std::uint16_t> words, time_point now, wall_time wall);
+    bool was_heard_written(row& of);
     void learn_delimiter(const question& q, const station_answer& answer);
     void doubt_delimiter(station_number unit);
     void lose(row& of, const std::string& why, std::uint16_t code);
@@ -250,6 +274,7 @@ private:
     bool forwards_came_ = false;  // since they were looked at
     time_point forwards_wake_ = time_point::max();
     std::size_t halves_ = 0;
+    std::map<std::size_t, unsigned> unanswered_;  // questions of somebody else in a row, of stations
     std::uint64_t last_through_ = 0;
     std::vector<through_outcome> through_outcomes_;
     bool port_open_ = false;

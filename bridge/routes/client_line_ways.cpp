@@ -135,6 +135,8 @@ bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
         const bool is_new = is_write_due(of) || words_in_memory(of.content) != reading_row(of).agreed;
         if ((of.half || of.through) && !is_new)
             continue;  // it came from the station, or a write that failed was taken back
+        if (was_heard_written(of))
+            continue;
         of.first_write.reset();
         ask_write(of);
         due = true;

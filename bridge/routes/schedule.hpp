@@ -84,6 +84,12 @@ public:
     // something else is due, or within its share.
     void set_scan(std::optional<duration> longest) { scan_ = longest; }
     void scanned(duration took, time_point now) { shares_.spent(lane::scan, took / parallel_, now); }
+    // What became of somebody else's question to the station, which took no time of ours.
+    void overheard(std::size_t station, outcome how, time_point now)
+    {
+        heard(stations_[station], how, {}, now, {});
+        set_asked(station);
+    }
 
     health state_of(std::size_t station) const { return stations_[station].health.state(); }
     time_point probe_at(std::size_t station) const { return stations_[station].health.probe_at(); }

@@ -36,6 +36,7 @@ void check(const gateway_config& c, const located_json& file, const std::string&
     check_servers(context);
     check_plc_links(context);
     check_dds(context);
+    check_standby(context);
 }
 
 }  // namespace plcgw::config

@@ -8,6 +8,7 @@
 #include "daemon/config/mewtocol_config.hpp"
 #include "daemon/config/plc_link_config.hpp"
 #include "daemon/config/point_config.hpp"
+#include "daemon/config/standby_config.hpp"
 #include "daemon/config/topics_config.hpp"
 #include "protocols/serial_timing.hpp"
 
@@ -184,6 +185,7 @@ struct gateway_config {
     std::vector<tcp_server_config> modbus_tcp;
     std::vector<plc_link_config> plc_links;
     dds_config dds;
+    standby_config standby;
     log_config log;
     control_config control;
     state_config state;

@@ -7,6 +7,7 @@
 #include "daemon/config/message_fields.hpp"
 #include "daemon/config/mewtocol_fields.hpp"
 #include "daemon/config/point_fields.hpp"
+#include "daemon/config/standby_fields.hpp"
 
 namespace plcgw::config {
 
@@ -265,6 +266,7 @@ void describe(Visitor& v, gateway_config& c)
     v.optional("modbus_tcp", c.modbus_tcp, "MODBUS TCP servers");
     v.optional("plc_links", c.plc_links, "PLC links: link relays and registers that FP7s of several gateways share");
     v.optional("dds", c.dds, "DDS");
+    v.optional("standby", c.standby, "Two gateways of the same name that stand in for each other");
     v.optional("log", c.log, "Logging");
     v.optional("control", c.control, "Commands for the running gateway");
     v.optional("state", c.state, "What the gateway has learned about its devices");

@@ -1,21 +1,18 @@
 // Emulates serial wires with MODBUS RTU stations: paces bytes as UARTs do, and measures what is on the wires.
 // usage: bench-wire PLAN.json REPORTS     the plan: see README.md; REPORTS gets a line of JSON at each SIGUSR1, which
 // also begins a new window, and at the end (SIGTERM)
+#include "tests/bench/described.hpp"
 #include "tests/bench/pty_probe.hpp"
+#include "tests/bench/urgent.hpp"
 #include "tests/bench/wire_port.hpp"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <csignal>
-#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <sched.h>
 #include <sys/epoll.h>
-#include <sys/prctl.h>
 
 namespace plcgw::bench {
 namespace {
@@ -23,46 +20,12 @@ namespace {
 using nlohmann::json;
 using wire_ports = std::vector<std::unique_ptr<wire_port>>;
 
-constexpr std::size_t fewest_registers = 4096;
-
-nanoseconds now()
-{
-    timespec time{};
-    ::clock_gettime(CLOCK_MONOTONIC, &time);
-    return time.tv_sec * nanoseconds{1'000'000'000} + time.tv_nsec;
-}
-
-station station_of(const json& described, const wire_format& format)
-{
-    station made;
-    // A station knows that a request is over when the line was silent.
-    made.turnaround = format.rule() + described.value("turnaround_us", nanoseconds{0}) * 1000;
-    made.dead = described.value("dead", false);
-    made.refuses = described.value("refuses", std::uint8_t{0});
-    made.moving = described.value("moving", 0U);
-    made.registers.resize(described.value("registers", fewest_registers));
-    for (std::size_t i = 0; i < made.registers.size(); ++i)
-        made.registers[i] = static_cast<std::uint16_t>(i);
-    return made;
-}
-
 wire wire_of(const json& described)
 {
     wire_format format{described.at("baud"), described.value("bits", 11U), delivery::byte};
     const std::string how = described.value("delivery", "byte");
     format.how = how == "fifo" ? delivery::fifo : how == "frame" ? delivery::frame : delivery::byte;
-    station_table stations;
-    for (const json& each : described.at("stations"))
-        stations.add(each.at("unit"), station_of(each, format));
-    return {format, std::move(stations)};
-}
-
-// A wire is hardware: nothing else on the machine makes it late. Without the right to it, it is only a busy process.
-bool become_urgent()
-{
-    const sched_param urgent{.sched_priority = 2};
-    ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
-    return ::sched_setscheduler(0, SCHED_FIFO, &urgent) == 0;
+    return {format, stations_of(described.at("stations"), format)};
 }
 
 void write_report(const wire_ports& ports, const stillness& machine, bool urgent, std::ofstream& to)

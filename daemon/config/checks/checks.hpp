@@ -16,6 +16,7 @@ void check_stations(check_context& c);
 void check_servers(check_context& c);
 void check_plc_links(check_context& c);
 void check_dds(check_context& c);
+void check_standby(check_context& c);
 
 // Unit ids of a server and where they lead. list: "/modbus_tcp/0/units".
 void check_units(check_context& c, const std::string& list, const std::vector<unit_config>& units);
