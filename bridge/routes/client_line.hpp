@@ -167,8 +167,6 @@ public:
     std::size_t station_at(std::size_t number) const { return routes_[number].station; }
     bool is_half(std::size_t number) const { return routes_[number].half; }  // the writing half of a route
     bool is_up(std::size_t number) const;
-    std::size_t stations() const { return stations_.size(); }  // without a name: asked by others only
-    const station& station_numbered(std::size_t station) const { return stations_[station]; }
     health health_of(std::size_t station) const { return schedule_.state_of(station); }
 
     // Of the stations of the configuration, numbered as they were given; all but `since`.

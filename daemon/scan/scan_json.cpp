@@ -76,9 +76,9 @@ json scan_json(running_line& line, time_point now)
     client_line& routes = line.routes;
     const station_scan* const scan = routes.look_at_scan(now);
     json made{{"line", line_json(line.config)}, {"port_open", routes.is_port_open()}, {"stations", json::array()}};
-    for (std::size_t i = 0; i < routes.stations(); ++i)
-        if (!routes.station_numbered(i).name.empty())
-            made["stations"].push_back(configured_json(routes.station_numbered(i), routes.health_of(i)));
+    for (std::size_t i = 0; i < routes.stations().size(); ++i)
+        if (!routes.stations()[i].name.empty())
+            made["stations"].push_back(configured_json(routes.stations()[i], routes.health_of(i)));
     if (scan == nullptr) {
         made["state"] = "none";
         return made;
