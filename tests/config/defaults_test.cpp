@@ -129,7 +129,7 @@ TEST_CASE("defaults: rows with their required keys alone")
         "plcs": [{"name": "a"}],
         "lines": [{"name": "l", "device": "/dev/ttyS0"},
                   {"name": "g", "device": "/dev/ttyS1", "protocol": "general-purpose", "general_purpose": {
-                      "received": [{"name": "r", "plc": "a", "device": "D20", "count": 2}],
+                      "received": [{"name": "raw", "plc": "a", "device": "D20", "count": 2}],
                       "messages": [{"name": "m", "plc": "a", "pattern": "{n:number}",
                                     "fields": [{"name": "n", "device": "D30"}]}],
                       "sends": [{"name": "s", "text": "W", "period_ms": 10}]}}],
@@ -149,7 +149,7 @@ TEST_CASE("defaults: rows with their required keys alone")
 
     const json& messages = config["lines"][1]["general_purpose"];
     json received = written_defaults<received_config>();
-    received.update({{"name", "r"}, {"plc", "a"}, {"device", "D20"}, {"count", 2}});
+    received.update({{"name", "raw"}, {"plc", "a"}, {"device", "D20"}, {"count", 2}});
     CHECK(messages["received"][0] == received);
     json field = written_defaults<field_config>();
     field.update({{"name", "n"}, {"device", "D30"}});

@@ -101,8 +101,11 @@ class sample_names {
 public:
     explicit sample_names(check_context& c) : c_(c) {}
 
-    void take(const std::string& at, const std::string& name, std::string who)
+    // row: of the name, whose mistakes are said before.
+    void take(const std::string& row, const std::string& at, const std::string& name, std::string who)
     {
+        if (!c_.is_sound(row))
+            return;
         const auto [found, is_new] = taken_.emplace(name, who);
         if (!is_new && found->second != who)
             c_.complain(at, "makes \"" + name + "\", the name of a " + found->second + " in DDS: rename one of them");
@@ -118,12 +121,16 @@ void check_names_of_messages(check_context& c, sample_names& names)
     for (std::size_t i = 0; i < c.config.lines.size(); ++i) {
         const general_purpose_config& g = c.config.lines[i].messages;
         const std::string at = item("lines", i, "general_purpose");
-        for (std::size_t n = 0; n < g.received.size(); ++n)
-            names.take(at + "/received/" + std::to_string(n) + "/name", g.received[n].name, "received message");
+        for (std::size_t n = 0; n < g.received.size(); ++n) {
+            const std::string row = at + "/received/" + std::to_string(n);
+            names.take(row, row + "/name", g.received[n].name, "received message");
+        }
         for (std::size_t n = 0; n < g.messages.size(); ++n)
-            for (std::size_t f = 0; f < g.messages[n].fields.size(); ++f)
-                names.take(at + "/messages/" + std::to_string(n) + "/fields/" + std::to_string(f) + "/name",
+            for (std::size_t f = 0; f < g.messages[n].fields.size(); ++f) {
+                const std::string row = at + "/messages/" + std::to_string(n);
+                names.take(row, row + "/fields/" + std::to_string(f) + "/name",
                            g.messages[n].name + "." + g.messages[n].fields[f].name, "field of a message");
+            }
     }
 }
 
@@ -131,13 +138,14 @@ void check_names(check_context& c)
 {
     sample_names names(c);
     for (std::size_t i = 0; i < c.config.routes.size(); ++i)
-        names.take(item("routes", i, "name"), c.config.routes[i].name, "route");
+        names.take(item("routes", i), item("routes", i, "name"), c.config.routes[i].name, "route");
     check_names_of_messages(c, names);
     for (std::size_t i = 0; i < c.config.dds.blocks.size(); ++i) {
         const block_config& b = c.config.dds.blocks[i];
         const plc::model* const model = c.model_of(b.plc);
         if (const auto head = model == nullptr ? std::nullopt : plc::parse_device(b.device, model->names))
-            names.take("/dds/blocks/" + std::to_string(i) + "/device", block_name(b.plc, *model, *head), "block");
+            names.take("/dds/blocks/" + std::to_string(i), "/dds/blocks/" + std::to_string(i) + "/device",
+                       block_name(b.plc, *model, *head), "block");
     }
 }
 
