@@ -3,7 +3,7 @@
 import socket
 import time
 
-from support import Bench, Table, configuration, quiet_window, station, wait_for
+from support import Bench, Table, configuration, knows_merge, quiet_window, station, wait_for
 
 PLANTS = {"a tenth": (100, 3), "all": (1000, 32)}  # stations, lines
 ROUTES = 10     # of a station
@@ -30,9 +30,10 @@ class Plant:
 
     def configuration(self, bench, wires):
         stations, routes, points = [], [], []
+        alone = {"merge": "off"} if knows_merge() else {}
         for line, here in enumerate(self.of_line):
             for at, i in enumerate(here):
-                stations.append(station(f"s{i}", at + 1, f"wire{line}"))
+                stations.append(station(f"s{i}", at + 1, f"wire{line}", **alone))
                 routes += [{"name": f"s{i}.{k}", "station": f"s{i}", "table": "holding", "first": 2 * REGISTERS * k,
                             "count": REGISTERS, "plc": f"plc{line}", "device": f"D{REGISTERS * (at * ROUTES + k)}",
                             "period_ms": PERIOD_MS} for k in range(ROUTES)]
