@@ -38,6 +38,7 @@ def arguments():
     parser.add_argument("--clients", type=numbers, help="forward: 1,8,64")
     parser.add_argument("--programs", help="bus: gateway,libmodbus,pymodbus")
     parser.add_argument("--tenth", action="store_true", help="scale: a tenth of the plant only, no growth")
+    parser.add_argument("--parts", help="dds: rates,latency,memory")
     parser.add_argument("--delivery", choices=("byte", "fifo", "frame"), default="byte",
                         help="bus: when the driver hands over received bytes")
     parser.add_argument("--turnaround-us", type=int, default=1000, help="bus: of the station, beyond the silence")

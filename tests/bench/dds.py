@@ -6,7 +6,7 @@ import os
 import dds_latency as latency
 import dds_memory as memory
 import dds_rates as rates
-from support import REALTIME, Table
+from support import REALTIME, CannotMeasure, Table
 
 
 class Ratios:
@@ -25,8 +25,7 @@ class Ratios:
                        spoiled=any(each and each.get("spoiled") for each in (gateway, bare, ddsperf)))
 
 
-def run(options):
-    ratios = Ratios(options)
+def rate_rows(ratios, options):
     realtime = os.environ.pop(REALTIME, None)  # of two that are as fast as they can, nothing would be left to others
     for paced in (False, True):
         how = f"{rates.PACE * rates.POINTS} samples/s" if paced else "as fast as it can"
@@ -37,11 +36,30 @@ def run(options):
         ratios.row("subscriber's us for a sample, " + how, "reader", *found)
     if realtime:
         os.environ[REALTIME] = realtime
+
+
+def latency_rows(ratios, options):
     found = [measure(options) for measure in (latency.wire_latencies, latency.bare_latencies, latency.ddsperf_latencies)]
     for key in ("p50", "p99"):
         ratios.row(f"us from the wire to a subscriber, {key}", key, *found, digits=0)
-    print(f"  of which a byte through a pty: {found[0]['hop']:.0f} us; {found[0]['count']} changes", flush=True)
+    through = "a device server" if options.tcp else f"a pty, of which a byte through it took {found[0]['hop']:.0f} us"
+    print(f"  through {through}; {found[0]['count']} changes", flush=True)
+
+
+def memory_rows(ratios, options):
     with_dds, without = ({"kB": memory.gateway_memory(enabled, options)} for enabled in (True, False))
     bare = {"kB": memory.bare_memory(options)}
     ratios.row("publisher's kB for 1,000 instances", "kB", {"kB": with_dds["kB"] - without["kB"]}, bare)
     ratios.row("the same, with the gateway's own of points", "kB", with_dds, bare)
+
+
+PARTS = {"rates": rate_rows, "latency": latency_rows, "memory": memory_rows}
+
+
+def run(options):
+    wanted = options.parts.split(",") if options.parts else list(PARTS)
+    if wrong := [each for each in wanted if each not in PARTS]:
+        raise CannotMeasure(f"there is no part {', '.join(wrong)}, only {', '.join(PARTS)}")
+    ratios = Ratios(options)
+    for each in wanted:
+        PARTS[each](ratios, options)

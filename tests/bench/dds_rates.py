@@ -1,5 +1,7 @@
 """Samples of points per second, and the processor's time for each: the gateway's, a bare writer's, ddsperf's."""
 
+import contextlib
+import os
 import socket
 import struct
 import time
@@ -14,6 +16,18 @@ PACE = 20         # writes per second of the paced load
 UNIT = 247
 # Several processes share the processors here, and keep each other and the kernel waiting: part of the load.
 OWN = ("starved", "mean_hop_us")
+
+
+@contextlib.contextmanager
+def as_urgent_as_the_measured():
+    """Who makes the load of them must not wait for others on this machine."""
+    before = os.getpriority(os.PRIO_PROCESS, 0)
+    with contextlib.suppress(PermissionError):
+        os.setpriority(os.PRIO_PROCESS, 0, -15)
+    try:
+        yield
+    finally:
+        os.setpriority(os.PRIO_PROCESS, 0, before)
 
 
 class Load:
@@ -35,9 +49,9 @@ class Load:
 
 
 class Writer:
-    """MODBUS TCP clients that change all points with each write; two, so that the gateway never waits for them."""
+    """MODBUS TCP clients that change all points with each write; several, so that the gateway never waits for them."""
 
-    def __init__(self, port, clients=2):
+    def __init__(self, port, clients=8):
         self.connections = [socket.create_connection(("127.0.0.1", port), timeout=10) for _ in range(clients)]
         for each in self.connections:
             each.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -47,15 +61,19 @@ class Writer:
         self.value = self.value % 65535 + 1
         return struct.pack(">BHHB", 16, 0, POINTS, 2 * POINTS) + struct.pack(">H", self.value) * POINTS
 
+    def write_each(self):
+        for each in self.connections:
+            pdu = self.pdu()
+            each.sendall(struct.pack(">HHHB", 1, 0, len(pdu) + 1, UNIT) + pdu)
+        for each in self.connections:
+            if each.recv(64)[7] != 16:
+                raise CannotMeasure("the gateway refused a write")
+
     def saturate(self, seconds):
         deadline = time.monotonic() + seconds
-        while time.monotonic() < deadline:
-            for each in self.connections:
-                pdu = self.pdu()
-                each.sendall(struct.pack(">HHHB", 1, 0, len(pdu) + 1, UNIT) + pdu)
-            for each in self.connections:
-                if each.recv(64)[7] != 16:
-                    raise CannotMeasure("the gateway refused a write")
+        with as_urgent_as_the_measured():
+            while time.monotonic() < deadline:
+                self.write_each()
 
     def pace(self, seconds):
         began = time.monotonic()
