@@ -87,7 +87,8 @@ TEST_CASE("check: partitions have names, the file of Cyclone DDS exists")
           "2 warning /dds/peers are not used: /dds/cyclone_config says all of where the gateway is heard, its peers, "
           "too");
     CHECK(said(with(R"("cyclone_config": "nowhere.xml")"), folder) ==
-          "2 /dds/cyclone_config is \"" + (folder / "nowhere.xml").string() + "\", which is no file");
+          "2 /dds/cyclone_config is \"" + (folder / "nowhere.xml").string() +
+              "\", which cannot be found: a path is relative to the folder of this configuration");
     CHECK(load_text(with(R"("cyclone_config": "cyclone.xml")"), folder).config.dds.settings.cyclone_config ==
           (folder / "cyclone.xml").string());
     std::filesystem::remove_all(folder);

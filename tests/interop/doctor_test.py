@@ -91,7 +91,7 @@ class DoctorTest(InteropTest):
         status, text = self.doctor("--config", path)
         self.assertEqual(status, 1)
         self.assertIn("a pattern is for readers", text)
-        self.assertIn("which is no file", text)
+        self.assertIn("which cannot be found", text)
         status, text = self.doctor("--domain", 999)
         self.assertEqual(status, 2)
 

@@ -48,7 +48,8 @@ void check_cyclone_config(check_context& c)
         return;
     const std::string at = "/dds/cyclone_config";
     if (!std::filesystem::is_regular_file(s.cyclone_config))
-        c.complain(at, "is \"" + s.cyclone_config + "\", which is no file");
+        c.complain(at, "is \"" + s.cyclone_config +
+                           "\", which cannot be found: a path is relative to the folder of this configuration");
     else if (!s.peers.empty())
         c.complain("/dds/peers", "are not used: " + at + " says all of where the gateway is heard, its peers, too",
                    mistake::weight::warning);
