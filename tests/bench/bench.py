@@ -11,12 +11,14 @@ import sys
 from pathlib import Path
 
 MODULES = {"bus": "bus", "write": "write_latency", "dead": "dead_stations", "forward": "forwarding", "scale": "scale",
-           "dds": "dds", "smoke": "smoke", "dds_smoke": "dds_smoke"}
+           "dds": "dds", "failover": "failover", "smoke": "smoke", "dds_smoke": "dds_smoke"}
 FOR_CTEST = ("smoke", "dds_smoke")
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = {"PLC_GATEWAY": "daemon/plc-gateway", "BENCH_WIRE": "tests/bench/bench-wire",
-            "BENCH_DDS": "tests/bench/bench-dds", "LIBMODBUS_LOOP": "tests/bench/libmodbus-loop"}
-ONLY_FOR = {"BENCH_DDS": {"dds", "dds_smoke"}, "LIBMODBUS_LOOP": {"bus"}}  # the others are for all
+            "BENCH_BUS": "tests/bench/bench-bus", "BENCH_DDS": "tests/bench/bench-dds",
+            "LIBMODBUS_LOOP": "tests/bench/libmodbus-loop"}
+# The others are for all.
+ONLY_FOR = {"BENCH_BUS": {"failover"}, "BENCH_DDS": {"dds", "dds_smoke"}, "LIBMODBUS_LOOP": {"bus"}}
 
 
 def numbers(text):
@@ -41,6 +43,7 @@ def arguments():
     parser.add_argument("--parts", help="dds: rates,latency,memory")
     parser.add_argument("--delivery", choices=("byte", "fifo", "frame"), default="byte",
                         help="bus: when the driver hands over received bytes")
+    parser.add_argument("--runs", type=int, default=20, help="failover: of each fault")
     parser.add_argument("--turnaround-us", type=int, default=1000, help="bus: of the station, beyond the silence")
     options = parser.parse_args()
     if wrong := [each for each in options.name if each not in MODULES]:

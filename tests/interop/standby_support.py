@@ -2,6 +2,7 @@
 
 import json
 import os
+import socket
 import time
 
 from support import PATIENCE, Client, InteropTest, Program, Watch, binary, serial_line, station, route, wait_for
@@ -47,7 +48,7 @@ class PartyLine(Program):
 
     def talks(self, member, since):
         """Waits until that member asks, and returns when it began."""
-        return wait_for(f"member {member} asks", lambda: self.questions(member, since))[0]["at"]
+        return wait_for(f"member {member} asks", lambda: self.questions(member, since), 2 * PATIENCE)[0]["at"]
 
 
 class Member(Program):
@@ -81,11 +82,13 @@ class StandbyTest(InteropTest):
     def pair(self, **standby):
         """Both members, of which 0 is active already."""
         self.line()
-        self.members = [self.member(0, **standby), self.member(1, **standby)]
+        self.members = [self.member(0, **standby)]
         self.wire.talks(0, 0)
+        self.members.append(self.member(1, **standby))
         self.subscriber = Watch(self, self.dds()).connected()
         self.subscriber.expect("meter.energy", quality="good")
-        wait_for("the standby is warm", lambda: "is open" in self.members[1].log)
+        wait_for("both know each other", lambda: all(self.report(k).get("there", {}).get("heard") for k in range(2)))
+        self.quiet_watch(5 * self.PERIOD / 1000)  # in which the standby hears the line
         return self.members
 
     def dds(self):
@@ -106,8 +109,19 @@ class StandbyTest(InteropTest):
         made["control"] = {"socket": str(self.folder / f"control{number}.sock")}
         made["state"] = {"folder": str(self.folder / f"state{number}")}
         made["standby"] = {"priority": 60 - 10 * number, "lease_ms": int(1000 * LEASE), "hand_back": False,
-                           "hand_back_after_ms": 1000, "listen_ms": 1000, **standby}
+                           "hand_back_after_ms": 1000, "listen_ms": int(2000 * LEASE), **standby}
         return made
+
+    def report(self, number):
+        """What the control socket of a member says of the pair."""
+        try:
+            with socket.socket(socket.AF_UNIX) as asking:
+                asking.settimeout(PATIENCE)
+                asking.connect(str(self.folder / f"control{number}.sock"))
+                asking.sendall(b'{"command": "pair", "action": "show"}\n')
+                return json.loads(asking.makefile().readline())
+        except (OSError, ValueError):
+            return {}
 
     def takeover(self, by, since):
         """Waits until that member asks; returns after how many seconds it did."""
