@@ -10,7 +10,7 @@ constexpr unsigned most_at_a_time = 200;  // samples; the lines do not wait for 
 }  // namespace
 
 pair_mirror::pair_mirror(const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs, const line_list& lines,
-                         hears hears)
+                         hearing hears)
     : plcs_(plcs), lines_(lines), hears_(std::move(hears))
 {
     for (const auto& each : plcs)
