@@ -73,6 +73,8 @@ std::optional<client_line::question> client_line::next(time_point now)
     if (turn->of != lane::forward && polls_.at(turn->item).period == duration{}) {
         row& of = routes_[polls_.at(turn->item).routes.front()];
         of.on_its_way = std::exchange(of.waiting, {});
+        of.first_write.reset();
+        of.taken_back.reset();
     }
     if (chosen)
         chosen->timing.delimiter = delimiter_of(chosen->unit, chosen->timing.delimiter);
@@ -198,9 +200,8 @@ void client_line::refused(const question& q, const station_refusal& why, time_po
     if (!is_write)
         return;
     row& of = routes_[q.item.routes.front()];
-    if (of.through)
-        through_ended(of, static_cast<modbus::exception_code>(why.code));
-    else
+    through_refused(of, q, why);
+    if (!of.through)
         was_refused(of, q, now, why.may_pass);
 }
 
@@ -261,7 +262,7 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
     }
     note_health(station, before, reason, code);
     if (is_write)
-        through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_target_failed_to_respond);
+        through_unanswered(routes_[q.item.routes.front()], reason);
 }
 
 void client_line::interrupted(const question& q)
@@ -272,7 +273,7 @@ void client_line::interrupted(const question& q)
         const auto& turn = std::get<schedule::turn>(q.origin);
         schedule_.finished(turn, schedule::outcome::not_asked, {}, q.asked_at);
         if (q.item.period == duration{})
-            through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_path_unavailable);
+            through_lost(routes_[q.item.routes.front()]);
     }
 }
 
