@@ -85,4 +85,15 @@ qos_ptr event_qos()
     return qos;
 }
 
+qos_ptr request_qos()
+{
+    constexpr std::int32_t most = 256;
+    qos_ptr qos(dds_create_qos());
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+    dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
+    dds_qset_resource_limits(qos.get(), most, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    return qos;
+}
+
 }  // namespace plcgw

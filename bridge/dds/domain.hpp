@@ -57,10 +57,16 @@ qos_ptr partition_qos(const dds_settings& settings);  // for a DDS publisher or 
 qos_ptr state_qos();  // RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1: both sides of every state topic
 qos_ptr event_qos();  // RELIABLE, VOLATILE, KEEP_LAST 256: writers of events, which a stopped reader must not block
 
+qos_ptr request_qos();  // RELIABLE, VOLATILE, KEEP_ALL, max_samples 256: both sides of requests
+
 inline constexpr auto register_block_topic = "plcgw/v1/RegisterBlock";
 inline constexpr auto point_topic = "plcgw/v1/Point";
 inline constexpr auto gateway_status_topic = "plcgw/v1/GatewayStatus";
 inline constexpr auto serial_message_topic = "plcgw/v1/SerialMessage";
+inline constexpr auto write_request_topic = "plcgw/v1/WriteRequest";
+inline constexpr auto point_write_request_topic = "plcgw/v1/PointWriteRequest";
+inline constexpr auto serial_send_request_topic = "plcgw/v1/SerialSendRequest";
+inline constexpr auto write_reply_topic = "plcgw/v1/WriteReply";
 
 // "cannot create X: Bad Parameter", and what Cyclone logged about it.
 dds_error creation_error(const std::string& what, std::int32_t code, const std::string& logged);
