@@ -27,9 +27,16 @@ public:
     void say_everything();
     void publish();  // those that changed
 
+    struct found {
+        const plc_block* block = nullptr;  // null: there is none of that name
+        bool writable = false;
+    };
+    found find(const std::string& name) const;
+
 private:
     struct row {
         plc_block content;
+        bool writable = false;
         bool changed = true;
         quality said = quality::good;
     };

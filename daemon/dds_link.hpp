@@ -21,6 +21,7 @@ public:
     bool open();
 
     bool is_open() const { return publisher_.has_value(); }
+    const dds_identity& identity() const { return identity_; }
 
     void publish(const sample& s)
     {

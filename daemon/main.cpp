@@ -1,4 +1,5 @@
 // The command line.
+#include "daemon/access_arguments.hpp"
 #include "daemon/config/read.hpp"
 #include "daemon/config/schema.hpp"
 #include "daemon/link_time_command.hpp"
@@ -146,6 +147,9 @@ int run_command(int argc, char** argv)
     CLI::App* const plc_link = app.add_subcommand("plc-link", "Show the PLC links of the running gateway");
     plc_link->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
 
+    plcgw::access_arguments access;
+    access.add_to(app);
+
     const CLI::App* const schema = app.add_subcommand("schema", "Print the JSON Schema of the configuration");
 
     try {
@@ -170,6 +174,8 @@ int run_command(int argc, char** argv)
         return plcgw::show_map(mapped);
     if (*link_time)
         return plcgw::show_link_time(timed);
+    if (const auto status = access.run())
+        return *status;
     if (*schema)
         std::cout << plcgw::config::schema();
     return 0;

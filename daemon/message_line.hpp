@@ -21,6 +21,8 @@ public:
     asio::awaitable<void> run() override;
     void wake() override;
 
+    bool allows_dds() const { return config_.messages.dds_sends; }
+
     messages::line_messages content;
 
 private:

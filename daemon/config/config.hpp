@@ -147,11 +147,13 @@ struct block_config {
     std::string plc;
     std::string device;
     unsigned count = 1;
+    bool writable = false;  // by DDS
 };
 
 struct dds_config {
     dds_settings settings;
-    std::string member;  // empty: the host's name
+    bool writes = false;  // obey requests
+    std::string member;   // empty: the host's name
     milliseconds longest_silence{1000};
     std::vector<block_config> blocks;
 };
