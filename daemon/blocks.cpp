@@ -10,13 +10,21 @@ void published_blocks::add(const block_config& from, plc::simulated_plc& plc)
     block.at = *plc.memory().find(block.head);
     block.count = from.count;
     block.name = from.plc + "." + plc::to_string(block.head, plc.model().names);
-    rows_.push_back({std::move(block), true});
+    rows_.push_back({std::move(block), from.writable});
 }
 
 void published_blocks::memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
 {
     for (row& block : rows_)
         block.changed = block.changed || touches(block.content, plc, changed);
+}
+
+published_blocks::found published_blocks::find(const std::string& name) const
+{
+    for (const row& each : rows_)
+        if (each.content.name == name)
+            return {&each.content, each.writable};
+    return {};
 }
 
 void published_blocks::qualities_changed()

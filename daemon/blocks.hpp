@@ -28,9 +28,16 @@ public:
     void keep_silences(time_point now, duration longest);  // what was not said for so long is due again
     void publish();                                        // those that changed
 
+    struct found {
+        const plc_block* block = nullptr;  // null: there is none of that name
+        bool writable = false;
+    };
+    found find(const std::string& name) const;
+
 private:
     struct row {
         plc_block content;
+        bool writable = false;
         bool changed = true;
         quality said = quality::good;
         time_point said_at{};

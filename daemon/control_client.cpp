@@ -17,6 +17,7 @@ namespace asio = boost::asio;
 nlohmann::json failure(const std::string& path, const boost::system::error_code& why)
 {
     return {{"ok", false},
+            {"unreachable", true},
             {"error", fmt::format("no gateway answers on {} ({}): does it run, and may you use it? --socket names "
                                   "another one",
                                   path, why.message())}};

@@ -7,7 +7,8 @@
 
 namespace plcgw {
 
-// The gateway's reply; {"ok": false, "error": ...} too when nobody listens there. socket: empty = where it usually is.
+// The gateway's reply; {"ok": false, "unreachable": true, "error": ...} when nobody answers there. socket: empty =
+// where it usually is.
 nlohmann::json ask_gateway(const std::string& socket, const nlohmann::json& command);
 
 }  // namespace plcgw

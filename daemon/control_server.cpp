@@ -81,19 +81,22 @@ asio::awaitable<void> control_server::serve(stream_protocol::socket client)
         const auto [ec, size] = co_await asio::async_read_until(client, into, '\n', no_throw);
         if (ec)
             co_return;
-        const std::string reply = answer(std::string_view(received).substr(0, size)) + "\n";
+        std::string line = received.substr(0, size);
         received.erase(0, size);
+        const std::string reply = co_await answer(std::move(line));
         const auto [failed, sent] = co_await asio::async_write(client, asio::buffer(reply), no_throw);
         if (failed)
             co_return;
     }
 }
 
-std::string control_server::answer(std::string_view line) const
+asio::awaitable<std::string> control_server::answer(std::string line) const
 {
-    const auto command = nlohmann::json::parse(line, nullptr, false);
-    const nlohmann::json reply = command.is_object() ? handler_(command) : refusal("a command is one JSON object");
-    return reply.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    auto command = nlohmann::json::parse(line, nullptr, false);
+    nlohmann::json reply = refusal("a command is one JSON object");
+    if (command.is_object())
+        reply = co_await handler_(std::move(command));
+    co_return reply.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace plcgw

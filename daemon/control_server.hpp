@@ -13,7 +13,8 @@
 namespace plcgw {
 
 // The answer to a command: {"ok": true, ...} or {"ok": false, "error": "what is wrong and what to do"}.
-using control_handler = std::function<nlohmann::json(const nlohmann::json& command)>;
+// It may take its time: the next command of the same connection waits, other connections do not.
+using control_handler = std::function<asio::awaitable<nlohmann::json>(nlohmann::json command)>;
 
 class control_server {
 public:
@@ -30,7 +31,7 @@ public:
 
 private:
     asio::awaitable<void> serve(asio::local::stream_protocol::socket client);
-    std::string answer(std::string_view line) const;
+    asio::awaitable<std::string> answer(std::string line) const;
 
     std::filesystem::path path_;
     control_handler handler_;

@@ -1,101 +1,112 @@
 #include "daemon/dds_commands.hpp"
 
-#include "daemon/config/read.hpp"
-#include "daemon/doctor/doctor.hpp"
-#include "daemon/run.hpp"
-#include "daemon/watch_device.hpp"
+#include "daemon/log.hpp"
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
 
 namespace plcgw {
-namespace {
 
-constexpr int usage_error = 2;
-
-}  // namespace
-
-void site_arguments::add_to(CLI::App& command)
+dds_commands::dds_commands(asio::io_context& loop, const dds_config& config, dds_identity who, carry_out how,
+                           std::function<bool()> is_active)
+    : loop_(loop), config_(config), who_(std::move(who)), carry_out_(std::move(how)), is_active_(std::move(is_active)),
+      wakes_(loop)
 {
-    command.add_option("-c,--config", config_file_, "Take the DDS settings from this configuration");
-    command.add_option("-d,--domain", dds.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
-    command.add_option("-i,--interface", dds.interface, "Network interface; empty: the first suitable")
-        ->capture_default_str();
-    command.add_option("--peer", dds.peers, "Address of a host that multicast does not reach");
-    command.add_option("--partition", partitions_, "DDS partition; plant* for all whose names begin so")
-        ->allow_extra_args(false);
 }
 
-std::optional<int> site_arguments::load()
+void dds_commands::keep_open()
 {
-    if (!config_file_.empty()) {
-        auto loaded = config::load_file(config_file_);
-        if (config::has_errors(loaded.found))
-            return check(config_file_);  // says what is wrong with it
-        dds = loaded.config.dds.settings;
-        config = std::move(loaded.config);
+    if (!config_.settings.enabled)
+        return;
+    if (!port_ && open())
+        asio::co_spawn(loop_, listen(), asio::detached);
+    if (port_ && port_->drops() > said_drops_) {
+        said_drops_ = port_->drops();
+        log::warning("DDS: {} replies to write requests could not be sent so far", said_drops_);
     }
-    if (!partitions_.empty()) {
-        dds.partition.clear();
-        dds.partitions = partitions_;
+}
+
+bool dds_commands::open()
+{
+    auto made = command_port::create(config_.settings, who_);
+    if (!made) {
+        if (!std::exchange(failed_, true))
+            log::warning("DDS requests: {}. It is tried again until it works", made.error().text);
+        return false;
     }
-    return std::nullopt;
+    const int descriptor = ::dup(made->descriptor());
+    if (descriptor < 0)
+        return false;
+    failed_ = false;
+    said_drops_ = 0;
+    wakes_.assign(descriptor);
+    port_.emplace(std::move(*made));
+    return true;
 }
 
-void watch_arguments::add_to(CLI::App& command)
+void dds_commands::close()
 {
-    site_.add_to(command);
-    command.add_flag("--json", options_.json, "One JSON object per line");
-    command.add_option("-g,--gateway", options_.filter.gateways, "Only these gateways")->allow_extra_args(false);
-    command
-        .add_option("--topic", topics_,
-                    "Only these: RegisterBlock, Point, PortStatus, DeviceStatus, GatewayStatus, Event, SerialMessage")
-        ->allow_extra_args(false);
-    command.add_option(
-        "--device", device_,
-        "Only blocks over this device of a PLC, D100 or main.D100; with --config points and routes, too");
-    command.add_option("-n,--count", count_, "End after so many samples of registers and points, or of the topics");
-    command.add_option("-t,--timeout", timeout_s_, "End after so many seconds");
-    command.add_option("names", options_.filter.names,
-                       "Beginnings of names: of routes, points, lines, ports, devices; none: all");
+    boost::system::error_code ignored;
+    wakes_.close(ignored);
+    port_.reset();
 }
 
-int watch_arguments::run()
+asio::awaitable<void> dds_commands::listen()
 {
-    if (const auto failed = site_.load())
-        return *failed;
-    options_.dds = site_.dds;
-    for (const std::string& each : topics_) {
-        const auto topic = topic_from(each);
-        if (!topic)
-            return fmt::print(stderr, "--topic: there is no topic {}: see --help\n", each), usage_error;
-        options_.filter.topics.push_back(*topic);
+    for (;;) {
+        const auto [ec] = co_await wakes_.async_wait(asio::posix::stream_descriptor::wait_read, no_throw);
+        if (ec)
+            co_return;
+        take();
     }
-    if (!device_.empty()) {
-        const std::string wrong = filter_by_device(device_, site_.config, options_.filter);
-        if (!wrong.empty())
-            return fmt::print(stderr, "--device: {}\n", wrong), usage_error;
+}
+
+void dds_commands::take()
+{
+    if (!port_)
+        return;
+    for (command_news& each : port_->take()) {
+        if (auto* const request = std::get_if<order_request>(&each))
+            take(std::move(*request));
+        else
+            log_.heard(std::get<order_reply>(each).key, std::move(std::get<order_reply>(each).outcome));
     }
-    if (count_ != 0)
-        options_.count = count_;
-    if (timeout_s_ != 0)
-        options_.timeout = std::chrono::seconds(timeout_s_);
-    return watch(options_);
 }
 
-void doctor_arguments::add_to(CLI::App& command)
+void dds_commands::take(order_request request)
 {
-    site_.add_to(command);
-    command.add_option("-w,--wait", seconds_, "Seconds to listen for others")
-        ->check(CLI::Range(1, 60))
-        ->capture_default_str();
+    const bool active = is_active_();
+    const auto refuse = [&](order_result why, const char* text) {
+        if (active)
+            reply(request.key, {why, 0, text});
+    };
+    if (!request.malformed.empty()) {
+        refuse(order_result::rejected, request.malformed.c_str());
+        return;
+    }
+    if (!config_.writes) {
+        refuse(order_result::denied, "this gateway obeys no DDS requests: dds/writes in its configuration allows them");
+        return;
+    }
+    order_log::verdict verdict = log_.came(request.key, active ? order_log::role::active : order_log::role::standby);
+    if (verdict.answer)
+        reply(request.key, *verdict.answer);
+    if (verdict.execute)
+        asio::co_spawn(loop_, execute(std::move(request.key), std::move(request.what)), asio::detached);
 }
 
-int doctor_arguments::run()
+asio::awaitable<void> dds_commands::execute(order_key key, order what)
 {
-    if (const auto failed = site_.load())
-        return *failed;
-    return doctor_dds(site_.dds, seconds_);
+    auto work = carry_out_(std::move(what));
+    const auto outcome = co_await std::move(work);
+    log_.done(key, outcome);
+    reply(key, outcome);
+}
+
+void dds_commands::reply(const order_key& to, const order_outcome& outcome)
+{
+    if (port_)
+        port_->reply(to, outcome, wall_now());
 }
 
 }  // namespace plcgw

@@ -1,57 +1,48 @@
-// The command line of `watch` and `doctor dds`: their options, from the command line or from the configuration of the
-// gateway that is looked for.
+// Requests of DDS clients: executed once each, however often they are repeated, and answered with what became of them.
 #pragma once
 
+#include "bridge/dds/command_port.hpp"
 #include "daemon/config/config.hpp"
-#include "daemon/watch.hpp"
+#include "daemon/read_before.hpp"
 
-#include <string>
-#include <vector>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
 
-namespace CLI {
-class App;
-}
+#include <functional>
+#include <optional>
 
 namespace plcgw {
 
-// Where gateways are: as the gateway's own configuration says, or as it is given.
-class site_arguments {
+class dds_commands {
 public:
-    void add_to(CLI::App& command);
+    using carry_out = std::function<asio::awaitable<order_outcome>(order)>;
 
-    // Takes what a configuration says. An exit code when it has mistakes, which are said.
-    std::optional<int> load();
+    // is_active: of a pair this member obeys; else it only remembers what it hears. Asked for each request.
+    dds_commands(asio::io_context& loop, const dds_config& config, dds_identity who, carry_out how,
+                 std::function<bool()> is_active);
 
-    dds_settings dds;
-    std::optional<gateway_config> config;
+    // With the publisher: it lives in the same DDS domain. Once a second, until it works.
+    void keep_open();
+    void close();
 
 private:
-    std::string config_file_;
-    std::vector<std::string> partitions_;
-};
+    bool open();
+    asio::awaitable<void> listen();
+    void take();
+    void take(order_request request);
+    asio::awaitable<void> execute(order_key key, order what);
+    void reply(const order_key& to, const order_outcome& outcome);
 
-class watch_arguments {
-public:
-    void add_to(CLI::App& command);
-    int run();
-
-private:
-    site_arguments site_;
-    watch_options options_;
-    std::vector<std::string> topics_;
-    std::string device_;
-    unsigned timeout_s_ = 0;
-    unsigned count_ = 0;
-};
-
-class doctor_arguments {
-public:
-    void add_to(CLI::App& command);
-    int run();
-
-private:
-    site_arguments site_;
-    unsigned seconds_ = 5;
+    asio::io_context& loop_;
+    dds_config config_;
+    dds_identity who_;
+    carry_out carry_out_;
+    std::function<bool()> is_active_;
+    std::optional<command_port> port_;
+    asio::posix::stream_descriptor wakes_;
+    order_log log_;
+    bool failed_ = false;  // and said so
+    std::uint64_t said_drops_ = 0;
 };
 
 }  // namespace plcgw

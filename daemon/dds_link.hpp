@@ -33,6 +33,8 @@ public:
     // it tries on its own.
     void add_part(std::function<void()> close) { parts_.push_back(std::move(close)); }
 
+    const dds_identity& identity() const { return identity_; }
+
     bool is_open() const { return publisher_.has_value(); }
     const port_status& port() const { return port_; }  // "dds": what was published and dropped
 

@@ -36,6 +36,19 @@ asio::awaitable<result<modbus::response>> forward_gate::finish(handle asked)
     co_return std::move(*asked->answer);
 }
 
+asio::awaitable<bool> forward_gate::expires(handle asked, time_point deadline)
+{
+    asked->done.expires_at(deadline);
+    while (!asked->answer) {
+        const auto [cancelled] = co_await asked->done.async_wait(no_throw);
+        if (!cancelled && !asked->answer && !line_.is_asked(asked->ticket))
+            co_return true;
+        if (!cancelled)
+            asked->done.expires_at(std::chrono::steady_clock::time_point::max());
+    }
+    co_return false;
+}
+
 void forward_gate::cancel(const handle& asked)
 {
     line_.cancel(asked->ticket);

@@ -38,6 +38,8 @@ public:
     handle begin(forward_asker asker, station_number unit, modbus::request request,
                  std::optional<modbus::serial_options> timing = {}, on_fault heard = {});
     static asio::awaitable<result<modbus::response>> finish(handle asked);
+    // Waits for the answer, or until the deadline if it is not asked by then: true.
+    asio::awaitable<bool> expires(handle asked, time_point deadline);
     void cancel(const handle& asked);  // finish() ends with asio::error::operation_aborted
 
     void deliver();  // faults and answers that the line has by now

@@ -35,7 +35,15 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     : loop_(loop), config_(from.config), started_(wall_now()), learned_(loop, config_.state.folder),
       fp7_ports_(loop, [this] { settle_memory(); }), upstream_(loop, [this] { settle_memory(); }),
       through_(loop.get_executor()), dds_(loop, config_, from.hash), blocks_(lines_, message_lines_, dds_),
-      points_(loop, dds_), statuses_(dds_, config_.dds.status_silence), second_(loop), watchdog_(loop)
+      points_(loop, dds_), statuses_(dds_, config_.dds.status_silence),
+      writes_(loop.get_executor(), {config_, plcs_, lines_, message_lines_, blocks_, points_, through_},
+              [this] { settle_memory(); }),
+      access_(config_, plcs_, lines_, points_, writes_),
+      commands_(
+          loop, config_.dds, dds_.identity(),
+          [this](order what) { return writes_.carry_out(std::move(what), order_origin::dds); },
+          [this] { return is_active(); }),
+      second_(loop), watchdog_(loop)
 {
     make_plcs(from.folder);
     make_lines();
@@ -47,6 +55,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
     make_points();
     make_statuses();
     make_standby();
+    dds_.add_part([this] { commands_.close(); });
     learned_.remember(lines_);
 }
 
@@ -245,22 +254,26 @@ bool gateway::listen(tcp_server& server)
 void gateway::start_control()
 {
     control_.emplace(loop_, control_socket(config_.control.socket),
-                     [this](const nlohmann::json& what) { return command(what); });
+                     [this](nlohmann::json what) { return command(std::move(what)); });
     if (const auto ec = control_->listen())
         log::warning("commands: cannot listen on {}: {}", control_->path().string(), ec.message());
     else
         asio::co_spawn(loop_, control_->accept_clients(), asio::detached);
 }
 
-nlohmann::json gateway::command(const nlohmann::json& what)
+asio::awaitable<nlohmann::json> gateway::command(nlohmann::json what)
 {
+    if (access_commands::knows(what)) {
+        auto reply = co_await access_.answer(std::move(what));
+        co_return std::move(reply);
+    }
     if (what.value("command", "") == "scan")
-        return scan_command(lines_, what, now());
+        co_return scan_command(lines_, what, now());
     if (what.value("command", "") == "pair")
-        return pair_command(standby_.get(), what);
+        co_return pair_command(standby_.get(), what);
     nlohmann::json reply = control_command(plcs_, links_.get(), what, now());
     settle_memory();
-    return reply;
+    co_return reply;
 }
 
 void gateway::publish_everything()
@@ -286,6 +299,8 @@ asio::awaitable<void> gateway::every_second()
     for (;;) {
         if (dds_.open())
             publish_everything();
+        if (dds_.is_open())
+            commands_.keep_open();
         if (is_active())
             for (const auto& line : lines_)
                 line->statuses.show(wall_now());

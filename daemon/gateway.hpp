@@ -1,9 +1,11 @@
 // Everything that runs, made from a configuration: PLCs, lines and servers on one event loop.
 #pragma once
 
+#include "daemon/access_command.hpp"
 #include "daemon/blocks.hpp"
 #include "daemon/config/read.hpp"
 #include "daemon/control_server.hpp"
+#include "daemon/dds_commands.hpp"
 #include "daemon/dds_link.hpp"
 #include "daemon/learned_keeper.hpp"
 #include "daemon/message_line.hpp"
@@ -16,6 +18,7 @@
 #include "daemon/statuses.hpp"
 #include "daemon/tcp_server.hpp"
 #include "daemon/upstream.hpp"
+#include "daemon/write_service.hpp"
 
 #include <memory>
 
@@ -67,7 +70,7 @@ private:
     asio::awaitable<void> every_second();  // status, and DDS again where it failed
     asio::awaitable<void> keep_watchdog(std::chrono::microseconds period);
     void show_status();
-    nlohmann::json command(const nlohmann::json& what);
+    asio::awaitable<nlohmann::json> command(nlohmann::json what);
 
     asio::io_context& loop_;
     gateway_config config_;
@@ -89,6 +92,9 @@ private:
     published_points points_;
     published_statuses statuses_;
     std::unique_ptr<standby_member> standby_;  // null: no pair
+    write_service writes_;
+    access_commands access_;
+    dds_commands commands_;
     std::optional<control_server> control_;
     asio::steady_timer second_;
     asio::steady_timer watchdog_;

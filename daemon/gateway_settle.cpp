@@ -31,6 +31,7 @@ void gateway::settle(message_line& line)
     settle_memory();
     const std::vector<sample> samples = line.content.take_samples(now());
     log_events(line.content.take_events());
+    writes_.deliver(line);
     for (const serial_message& each : line.content.take_messages())
         dds_.publish(each);
     say(samples);

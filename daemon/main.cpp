@@ -1,6 +1,7 @@
 // The command line.
+#include "daemon/access_arguments.hpp"
 #include "daemon/config/schema.hpp"
-#include "daemon/dds_commands.hpp"
+#include "daemon/dds_arguments.hpp"
 #include "daemon/link_time_command.hpp"
 #include "daemon/map_command.hpp"
 #include "daemon/pair_command.hpp"
@@ -124,6 +125,8 @@ int run_command(int argc, char** argv)
     CLI::App* const pair = app.add_subcommand("pair", "Show both members of a hot-standby pair, or change their roles");
     pair->add_option("action", pair_action, "show or switch")->capture_default_str();
     pair->add_option("--socket", socket, "Control socket of the gateway; default: where it usually is");
+    plcgw::access_arguments access;
+    access.add_to(app);
 
     const CLI::App* const schema = app.add_subcommand("schema", "Print the JSON Schema of the configuration");
 
@@ -155,6 +158,8 @@ int run_command(int argc, char** argv)
         return plcgw::show_map(mapped);
     if (*link_time)
         return plcgw::show_link_time(timed);
+    if (const auto status = access.run())
+        return *status;
     if (*schema)
         std::cout << plcgw::config::schema();
     return 0;

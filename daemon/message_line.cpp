@@ -171,7 +171,7 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
                 ec = size.error();
         }
         if (ec) {
-            content.interrupted(question);
+            content.interrupted(question, now());
             co_return ec;
         }
     }

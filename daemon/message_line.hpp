@@ -24,6 +24,8 @@ public:
     void wake() override;
     const port_status& port() const override { return connection_->meter().status(); }
 
+    bool allows_dds() const { return config_.messages.dds_sends; }
+
     messages::line_messages content;
 
 private:

@@ -40,7 +40,7 @@ json plc_command(const plc_list& plcs, const json& what)
     const std::string action = what.value("action", "list");
     const std::string name = what.value("name", "");
     if (what.value("command", "") != "plc")
-        return refusal("unknown command: this version knows \"plc\" and \"plc-link\"");
+        return refusal("unknown command: this version knows \"plc\", \"plc-link\", \"read\", \"write\" and \"send\"");
 
     if (action != "list") {
         const auto plc = std::find_if(plcs.begin(), plcs.end(), [&](const auto& each) { return each->name() == name; });

@@ -58,6 +58,8 @@ qos_ptr partition_qos(const dds_settings& settings);  // for a DDS publisher or 
 qos_ptr state_qos();  // RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1: both sides of every state topic
 qos_ptr event_qos();  // RELIABLE, VOLATILE, KEEP_LAST 256: writers of events, which a stopped reader must not block
 
+qos_ptr request_qos();  // RELIABLE, VOLATILE, KEEP_ALL, max_samples 256: both sides of requests
+
 const dds_topic_descriptor& type_of(dds_topic which);
 
 // Of the gateway's writers and of our readers of a topic, as the site has set it.
@@ -65,6 +67,11 @@ qos_ptr writer_qos(const dds_settings& settings, dds_topic which);
 qos_ptr reader_qos(const dds_settings& settings, dds_topic which);
 
 std::string_view policy_name(std::uint32_t policy);  // of dds_..._incompatible_qos_status: "reliability"
+
+inline constexpr auto write_request_topic = "plcgw/v1/WriteRequest";
+inline constexpr auto point_write_request_topic = "plcgw/v1/PointWriteRequest";
+inline constexpr auto serial_send_request_topic = "plcgw/v1/SerialSendRequest";
+inline constexpr auto write_reply_topic = "plcgw/v1/WriteReply";
 
 // "cannot create X: Bad Parameter", and what Cyclone logged about it.
 dds_error creation_error(const std::string& what, std::int32_t code, const std::string& logged);

@@ -59,6 +59,17 @@ const dds_topic_descriptor_t& type_of(dds_topic which)
     return plcgw_v1_GatewayStatus_desc;
 }
 
+qos_ptr request_qos()
+{
+    constexpr std::int32_t most = 256;
+    qos_ptr qos(dds_create_qos());
+    dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+    dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_ALL, DDS_LENGTH_UNLIMITED);
+    dds_qset_resource_limits(qos.get(), most, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+    return qos;
+}
+
 // The one place for what the gateway's writers offer.
 qos_ptr writer_qos(const dds_settings& settings, dds_topic which)
 {

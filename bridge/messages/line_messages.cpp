@@ -68,6 +68,10 @@ std::optional<line_messages::question> line_messages::next(time_point now, wall_
         const auto source = schedule_.next(now);
         if (!source)
             return std::nullopt;
+        if (!begin_ordered(*source)) {
+            schedule_.finished(*source);
+            continue;
+        }
         const send_row& row = sends_[*source].row;
         auto content = content_of(row);
         auto message = content ? general_purpose::encode(content->content, options_.form, content->how)
@@ -79,6 +83,7 @@ std::optional<line_messages::question> line_messages::next(time_point now, wall_
         }
         not_answered(*source, message.error().message());
         schedule_.finished(*source);
+        ordered_ended(*source, now, "cannot send it: " + message.error().message());
     }
     return std::nullopt;
 }
@@ -114,6 +119,7 @@ void line_messages::sent(const question& q, wall_time wall)
 void line_messages::answered(const question& q, const buffer& answer, time_point now, wall_time wall)
 {
     schedule_.finished(q.send);
+    ordered_ended(q.send, now, {});
     if (std::exchange(sends_[q.send].failing, false))
         note(line_event::severity::info, "send.answered", sends_[q.send].row.name,
              label("send", sends_[q.send].row.name) + " is answered again");
@@ -125,6 +131,7 @@ void line_messages::answered(const question& q, const buffer& answer, time_point
 void line_messages::failed(const question& q, boost::system::error_code why, time_point now, unsigned attempts)
 {
     schedule_.finished(q.send);
+    ordered_ended(q.send, now, "did not send it: " + why.message());
     not_answered(q.send, why.message());
     if (attempts > 0)
         quiet_until_ = now + attempts * q.timing.response_timeout;

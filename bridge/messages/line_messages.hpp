@@ -8,6 +8,8 @@
 #include "bridge/routes/client_line.hpp"
 #include "bridge/serial_message.hpp"
 
+#include <deque>
+
 namespace plcgw::messages {
 
 struct line_options {
@@ -60,7 +62,19 @@ public:
     void sent(const question& q, wall_time wall);
     void answered(const question& q, const buffer& answer, time_point now, wall_time wall);
     void failed(const question& q, boost::system::error_code why, time_point now, unsigned attempts);
-    void interrupted(const question& q) { schedule_.finished(q.send); }
+    void interrupted(const question& q, time_point now)
+    {
+        schedule_.finished(q.send);
+        ordered_ended(q.send, now, "was lost while the message was sent");
+    }
+
+    // A message, without start and end codes, that somebody wants sent beside all this: a number, and the outcome of
+    // each number as soon as it is known. Nothing when too many wait.
+    std::optional<std::uint64_t> order(buffer content, time_point now);
+    bool can_send(bytes content) const;          // it is something, and fits with its codes
+    bool has_begun(std::uint64_t number) const;  // it is being sent, or its outcome is known
+    void withdraw(std::uint64_t number);         // if it has not begun
+    std::vector<client_line::through_outcome> take_ordered() { return std::exchange(order_outcomes_, {}); }
 
     void received(result<buffer> what, time_point now, wall_time wall);  // what the framer gave, unasked
 
@@ -101,6 +115,15 @@ private:
         bool failing = false;  // and said so
     };
 
+    struct ordered {
+        std::uint64_t number{};
+        buffer content;
+    };
+
+    bool begin_ordered(std::size_t send);
+    void ordered_ended(std::size_t send, time_point now, const std::string& failed);
+    void lose_ordered();
+    void tell(std::uint64_t number, const std::string& failed);
     void take(const buffer& message, std::optional<std::size_t> answer_to, time_point now, wall_time wall);
     bool read(route& by, const buffer& message, std::optional<std::size_t> answer_to, time_point now, wall_time wall);
     void refuse(const buffer& message, const std::string& reason, time_point now);
@@ -123,6 +146,11 @@ private:
     std::vector<route> routes_;
     std::vector<sending> sends_;  // numbered like the schedule's sources
     send_schedule schedule_;
+    std::optional<std::size_t> orders_;  // the sending of what is ordered, once something was
+    std::deque<ordered> ordered_;        // that wait
+    std::optional<std::uint64_t> order_out_;
+    std::uint64_t last_order_ = 0;
+    std::vector<client_line::through_outcome> order_outcomes_;
     std::vector<serial_message> messages_;
     std::vector<line_event> events_;
     log_limiter refusals_{1, std::chrono::seconds(10)};

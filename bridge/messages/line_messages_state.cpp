@@ -118,6 +118,7 @@ void line_messages::port_lost()
     in_.reset();
     open_ = false;
     quiet_until_ = {};
+    lose_ordered();
     for (raw& each : raws_)
         each.stands.lose();
     for (route& each : routes_)

@@ -93,10 +93,25 @@ memory::watch memory::watch_writes(place p, std::size_t bits)
 {
     image& of = images_[p.area];
     of.watched.resize(of.registers.size());
+    if (ended_watches_.empty()) {
+        ended_watches_.push_back(watches_.size());
+        watches_.emplace_back();
+    }
+    const watch made = ended_watches_.back();
+    ended_watches_.pop_back();
+    watches_[made] = {p, bits};
     for (std::size_t index = p.bit / 16; index <= (p.bit + bits - 1) / 16; ++index)
-        of.watched[index].push_back(watches_.size());
-    watches_.push_back({p, bits});
-    return watches_.size() - 1;
+        of.watched[index].push_back(made);
+    return made;
+}
+
+void memory::end_watch(watch w)
+{
+    const watched_run& run = watches_[w];
+    image& of = images_[run.first.area];
+    for (std::size_t index = run.first.bit / 16; index <= (run.first.bit + run.bits - 1) / 16; ++index)
+        std::erase(of.watched[index], w);
+    ended_watches_.push_back(w);
 }
 
 bool memory::take_written(watch w) { return std::exchange(watches_[w].written, false); }
@@ -145,6 +160,15 @@ void memory::set_protected(place p, std::size_t bits, bool on)
         close(of, p.bit, bits);
     for (std::size_t bit = p.bit; !on && bit < p.bit + bits; ++bit)
         of.writable[bit / 16] = static_cast<std::uint16_t>(of.writable[bit / 16] | 1U << bit % 16);
+}
+
+bool memory::is_open(place p, std::size_t bits) const
+{
+    const image& of = images_[p.area];
+    for (std::size_t bit = p.bit; bit < p.bit + bits; ++bit)
+        if ((of.writable[bit / 16] >> bit % 16 & 1U) == 0)
+            return false;
+    return true;
 }
 
 void memory::show_bit(place p, bool value)

@@ -55,11 +55,13 @@ public:
     // Writes count although the value stays the same: for who has to know whether somebody still writes there.
     using watch = std::size_t;
     watch watch_writes(place p, std::size_t bits);
+    void end_watch(watch w);                                        // its number may be given again
     bool take_written(watch w);                                     // since the last call
     bool take_written() { return std::exchange(written_, false); }  // any of the watched devices
 
     // Devices that nobody but the PLC sets: show_word() and show_bit() do, the others pass over them.
     void set_protected(place p, std::size_t bits, bool on);
+    bool is_open(place p, std::size_t bits) const;  // anybody may set all of them
     void show_bit(place p, bool value);
     void show_word(place p, std::uint16_t value);  // of a word device or a whole register of bit devices
 
@@ -88,6 +90,7 @@ private:
     const plc::model* model_;
     std::vector<image> images_;
     std::vector<watched_run> watches_;
+    std::vector<watch> ended_watches_;
     bool changed_ = false;
     bool written_ = false;  // some watched device
 };

@@ -78,7 +78,11 @@ std::optional<client_line::question> client_line::next(time_point now)
     if (turn->of != lane::forward && polls_.at(turn->item).period == duration{}) {
         row& of = routes_[polls_.at(turn->item).routes.front()];
         of.on_its_way = std::exchange(of.waiting, {});
-        of.heard_written.clear();
+        if (turn->is_wanted) {
+            of.heard_written.clear();
+            of.first_write.reset();
+            of.taken_back.reset();
+        }
     }
     if (chosen)
         chosen->timing.delimiter = delimiter_of(chosen->unit, chosen->timing.delimiter);
@@ -215,11 +219,9 @@ void client_line::refused(const question& q, const station_refusal& why, time_po
     if (!is_write)
         return;
     row& of = routes_[q.item.routes.front()];
-    if (!of.on_its_way.empty())
-        through_ended(of, std::holds_alternative<modbus::request>(q.asked)
-                              ? modbus::exception_code(why.code)
-                              : exception_of(mewtocol::error_code(why.code)));
-    else
+    const bool somebody_waits = !of.on_its_way.empty();
+    through_refused(of, q, why);
+    if (!of.through || !somebody_waits)
         was_refused(of, q, now, why.may_pass);
 }
 
@@ -293,7 +295,7 @@ void client_line::failed(const question& q, boost::system::error_code why, time_
     note_health(station, before, reason, code);
     if (!is_write)
         return;
-    through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_target_failed_to_respond);
+    through_unanswered(routes_[q.item.routes.front()], reason);
     if (late.count != 0 && !schedule_.is_wanted(turn.item))  // what comes late must not meet another question
         schedule_.keep_quiet(station, now + q.timing.response_timeout);
 }
@@ -311,7 +313,7 @@ void client_line::interrupted(const question& q)
         const auto& turn = std::get<schedule::turn>(q.origin);
         schedule_.finished(turn, schedule::outcome::not_asked, {}, q.asked_at);
         if (q.item.period == duration{})
-            through_ended(routes_[q.item.routes.front()], modbus::exception_code::gateway_path_unavailable);
+            through_lost(routes_[q.item.routes.front()]);
     }
 }
 

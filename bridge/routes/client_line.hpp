@@ -61,6 +61,8 @@ public:
         return forwards_.take_faults();
     }  // to be told before the answers
 
+    bool is_asked(forward_ticket ticket) const { return forwards_.is_wanted(ticket); }  // its question is out
+
     // The asker has left: its request does not use the line any more, as far as that can be helped.
     void cancel(forward_ticket ticket)
     {
@@ -145,8 +147,18 @@ public:
     struct through_outcome {
         std::uint64_t number{};
         std::optional<modbus::exception_code> failed;
+        std::uint16_t device_code = 0;  // what the station refused with, in its own protocol; 0: it did not answer
+        std::string reason{};           // who did not do it, and why
+        bool goes_on = false;           // the route will write it again without being asked
     };
     std::vector<through_outcome> take_through() { return std::exchange(through_outcomes_, {}); }
+
+    // The same for whoever wants to hear of every route that writes these devices, which he has just written: each asks
+    // its station, although nothing may have changed. What a write-through route could not write is taken back.
+    std::vector<std::uint64_t> order(const plc::simulated_plc& plc, const plc::change& written);
+    bool has_begun(std::uint64_t number) const;  // its question is out, or its outcome is known
+    // Nobody waits for these any more, and memory is as it was before: what is not out yet is not written.
+    void withdraw(const std::vector<std::uint64_t>& numbers);
 
     // Somebody wrote devices that are watched, though nothing may have changed: periodic writes begin. As above.
     bool memory_written();
@@ -201,12 +213,21 @@ private:
         std::optional<plc::memory::watch> first_write{};  // of a periodic write that did not begin yet
         time_point next_write{};
 
-        // Of a write-through route, whose `agreed` is what the station has. The clients that wait, by number.
+        // Of a write-through route, whose `agreed` is what the station has.
         std::optional<plc::memory::watch> through{};
-        std::vector<std::uint64_t> waiting{};   // for the next question
-        std::vector<std::uint64_t> on_its_way;  // for the answer to the last one
 
         std::vector<std::uint16_t> heard_written{};  // what somebody else wrote to the station, since we did
+
+        // Those who wait for a write, by number.
+        std::vector<std::uint64_t> waiting{};                    // for the next question
+        std::vector<std::uint64_t> on_its_way;                   // for the answer to the last one
+        std::optional<std::vector<std::uint16_t>> taken_back{};  // what memory and station had before: no news to it
+    };
+    struct write_failure {
+        modbus::exception_code shown{};
+        std::uint16_t device_code = 0;
+        std::string reason;
+        bool goes_on = false;
     };
 
     void set_quality(row& of, quality state, const std::string& reason, std::uint16_t code = 0);
@@ -239,8 +260,13 @@ private:
     void note_health(std::size_t station, health before, const std::string& reason, std::uint16_t code = 0);
     void note_load(time_point now);
     static station_question write_or_probe(const row& of, bool is_wanted);
-    void through_ended(row& of, std::optional<modbus::exception_code> failed);
+    std::uint64_t wait_for(row& of);
+    void through_ended(row& of, const std::optional<write_failure>& failed);
+    void through_refused(row& of, const question& q, const station_refusal& why);
+    void through_unanswered(row& of, const std::string& reason);
     void through_lost(row& of);
+    bool is_as_station_has(const row& of);
+    bool goes_on(const row& of) const { return !of.through; }
     std::uint8_t delimiter_of(station_number unit, std::uint8_t of_a_stranger) const;
     void heard_silence(std::size_t station, const station_question& asked, time_point now);
     void heard_refusal(std::size_t station, const station_question& asked, const station_refusal& why);

@@ -67,10 +67,9 @@ void client_line::was_stored(row& of, const question& q, time_point now)
 {
     if (of.content.way == direction::periodic_write)
         plan_next_write(of, q, now, words_in_memory(of.content) != of.content.words);
-    if (of.through) {
+    if (of.through)
         of.agreed = of.content.words;
-        through_ended(of, std::nullopt);
-    }
+    through_ended(of, std::nullopt);
     if (!of.partner)
         return;
     row& read = reading_row(of);
@@ -137,7 +136,11 @@ bool client_line::memory_changed(const plc::simulated_plc& plc, const plc::chang
             continue;  // it came from the station, or a write that failed was taken back
         if (was_heard_written(of))
             continue;
-        of.first_write.reset();
+        if (of.taken_back && words_in_memory(of.content) == *of.taken_back)
+            continue;
+        of.taken_back.reset();
+        if (of.waiting.empty())
+            of.first_write.reset();
         ask_write(of);
         due = true;
     }
@@ -159,52 +162,6 @@ bool client_line::memory_written()
         due = true;
     }
     return due;
-}
-
-std::vector<std::uint64_t> client_line::write_through(const plc::simulated_plc& plc)
-{
-    plan();
-    std::vector<std::uint64_t> numbers;
-    for (std::size_t i = 0; i < routes_.size(); ++i) {
-        row& of = routes_[i];
-        if (!of.through || of.content.plc != &plc || !of.content.plc->memory().take_written(*of.through))
-            continue;
-        numbers.push_back(++last_through_);
-        of.waiting.push_back(last_through_);
-        if (!port_open_)
-            through_lost(of);
-        else if (schedule_.state_of(of.station) == health::down)  // at once: the line is for the living
-            through_ended(of, modbus::exception_code::gateway_target_failed_to_respond);
-        else
-            ask_write(of);
-    }
-    return numbers;
-}
-
-// Those who wait for a question that is not out yet are served by the next one, unless nobody can ask.
-void client_line::through_ended(row& of, std::optional<modbus::exception_code> failed)
-{
-    if (!of.through)
-        return;
-    const bool is_given_up = failed && schedule_.state_of(of.station) == health::down;
-    if (is_given_up)
-        of.on_its_way.insert(of.on_its_way.end(), of.waiting.begin(), of.waiting.end());
-    if (is_given_up)
-        of.waiting.clear();
-    const bool somebody_waited = !of.on_its_way.empty();
-    for (const std::uint64_t number : std::exchange(of.on_its_way, {}))
-        through_outcomes_.push_back({number, failed});
-    if (!failed || !somebody_waited || !of.waiting.empty())
-        return;
-    schedule_.forget(write_item(of));  // who wanted it knows that it failed
-    put_words(of.content, of.agreed);
-}
-
-void client_line::through_lost(row& of)
-{
-    of.on_its_way.insert(of.on_its_way.end(), of.waiting.begin(), of.waiting.end());
-    of.waiting.clear();
-    through_ended(of, modbus::exception_code::gateway_path_unavailable);
 }
 
 }  // namespace plcgw

@@ -149,12 +149,14 @@ struct block_config {
     std::string plc;
     std::string device;
     unsigned count = 1;
+    bool writable = false;  // by DDS
 };
 
 struct dds_config {
     dds_settings settings;  // its topics are those below, when the file was read
     topics_config topics;
-    std::string member;  // empty: the host's name
+    bool writes = false;  // obey requests
+    std::string member;   // empty: the host's name
     milliseconds longest_silence{1000};
     milliseconds status_silence{10'000};  // of ports and devices
     std::vector<block_config> blocks;

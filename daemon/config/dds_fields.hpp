@@ -72,6 +72,7 @@ void describe(Visitor& v, block_config& c)
     v.required("plc", c.plc, "Name of the simulated PLC", name_rule);
     v.required("device", c.device, "First device", text{2, 16});
     v.optional("count", c.count, "Registers, or bits of a bit device", range{1, 1024});
+    v.optional("writable", c.writable, "DDS clients may write these devices, if writes are allowed at all");
 }
 
 template <class Visitor>
@@ -79,6 +80,9 @@ void describe(Visitor& v, dds_config& c)
 {
     dds_settings& s = c.settings;
     v.optional("enabled", s.enabled, "Publish registers as DDS topics");
+    v.optional("writes", c.writes,
+               "Obey write requests of DDS clients: to writable points and blocks, and to routes that write. Whoever "
+               "reaches the domain may send them");
     v.optional("domain", s.domain, "DDS domain id", range{0, 230});
     v.optional("interface", s.interface, "Network interface; lo = this host only, empty = the first suitable",
                text{0, 64});

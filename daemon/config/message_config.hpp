@@ -68,6 +68,7 @@ struct general_purpose_config {
     std::vector<received_config> received;
     std::vector<message_config> messages;
     std::vector<send_config> sends;
+    bool dds_sends = false;  // DDS clients may send messages, too
     message_status_config status;
 };
 

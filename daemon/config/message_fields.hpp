@@ -103,6 +103,7 @@ void describe(Visitor& v, general_purpose_config& c)
     v.optional("received", c.received, "Words that get whole messages");
     v.optional("messages", c.messages, "Patterns; a message is read by the first one that fits");
     v.optional("sends", c.sends, "What is sent, and when");
+    v.optional("dds_sends", c.dds_sends, "DDS clients may send messages on this line, if dds/writes is true");
     v.optional("status", c.status, "Where the PLC shows how the line does");
 }
 

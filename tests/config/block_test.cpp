@@ -70,3 +70,14 @@ TEST_CASE("check: the name of a DDS block has 64 bytes")
     CHECK(said(text(58, "D7999")) == "");
     CHECK(said(text(59, "D7999")).starts_with("3 /dds/blocks/0/plc makes "));
 }
+
+TEST_CASE("check: what allows DDS writes while they are not allowed at all")
+{
+    const change_row rows[] = {
+        {R"("device": "D0", "count": 20)", R"("device": "D0", "count": 20, "writable": true)",
+         "75 warning /dds/blocks/0/writable is true, but allows nothing while /dds/writes is false"},
+        {R"("device": "D0", "count": 20)", R"("device": "D0", "count": 20, "writable": false)", ""},
+    };
+    for (const change_row& row : rows)
+        check_row(row);
+}

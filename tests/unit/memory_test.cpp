@@ -205,6 +205,10 @@ TEST_CASE("memory: protected devices keep what the PLC shows in them")
     m.show_word(at(m, "D8405"), 0x1097);
     m.show_bit(at(m, "M8401"), true);
     m.take_changes();
+    CHECK_FALSE(m.is_open(at(m, "D8404"), 32));
+    CHECK(m.is_open(at(m, "D8404"), 16));
+    CHECK_FALSE(m.is_open(at(m, "M8394"), 8));
+    CHECK(m.is_open(at(m, "M8394"), 7));
     m.set_word(at(m, "D8405"), 1);
     m.set_word(at(m, "M8400"), 0);
     m.set_word(at(m, "M8393"), 0);  // a run that begins inside a register
@@ -219,6 +223,22 @@ TEST_CASE("memory: protected devices keep what the PLC shows in them")
     m.set_protected(at(m, "D8405"), 16, false);
     m.set_word(at(m, "D8405"), 1);
     CHECK(m.word(at(m, "D8405")) == 1);
+}
+
+TEST_CASE("memory: a watch that ended sees nothing, and leaves the others alone")
+{
+    memory m(fx3u);
+    const auto first = m.watch_writes(at(m, "D100"), 32);
+    const auto second = m.watch_writes(at(m, "D101"), 16);
+    m.end_watch(first);
+    m.set_word(at(m, "D101"), 0);
+    CHECK(m.take_written(second));
+    const auto third = m.watch_writes(at(m, "D200"), 16);
+    CHECK(third == first);
+    m.set_word(at(m, "D100"), 1);
+    CHECK_FALSE(m.take_written(third));
+    m.set_word(at(m, "D200"), 1);
+    CHECK(m.take_written(third));
 }
 
 TEST_SUITE_END();

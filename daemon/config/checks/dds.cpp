@@ -150,6 +150,20 @@ void check_names(check_context& c)
     }
 }
 
+// Allowed for one, but not at all.
+void check_writes(check_context& c)
+{
+    const auto idle = [&](const std::string& at) {
+        c.complain(at, "is true, but allows nothing while /dds/writes is false", mistake::weight::warning);
+    };
+    for (std::size_t i = 0; !c.config.dds.writes && i < c.config.dds.blocks.size(); ++i)
+        if (c.config.dds.blocks[i].writable)
+            idle("/dds/blocks/" + std::to_string(i) + "/writable");
+    for (std::size_t i = 0; !c.config.dds.writes && i < c.config.lines.size(); ++i)
+        if (c.config.lines[i].messages.dds_sends)
+            idle(item("lines", i) + "/general_purpose/dds_sends");
+}
+
 }  // namespace
 
 void check_dds(check_context& c)
@@ -160,6 +174,7 @@ void check_dds(check_context& c)
     check_deadlines(c);
     check_blocks(c);
     check_names(c);
+    check_writes(c);
 }
 
 }  // namespace plcgw::config
