@@ -190,7 +190,7 @@ TEST_CASE(
 {
     sample_rules with{.most = 125, .base = 12'000, .each = 1'100};
     std::vector<read_span> spans;
-    for (std::uint32_t i = 0; i < 400; ++i)
+    for (std::uint32_t i = 0; i < 200; ++i)
         spans.push_back(span(i * 3, 2, std::chrono::milliseconds(100 + 37 * (i * 7 % 23))));
     auto rules = with.rules();
     const merged_reads all = merge_reads(spans, rules);
