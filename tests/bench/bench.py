@@ -34,10 +34,10 @@ def arguments():
                         help="measured programs run before all ordinary ones: where others use the machine, too")
     parser.add_argument("--tcp", action="store_true", help="the same wires behind device servers, not on ptys: a busy "
                         "machine delays those less; the gateway only")
+    parser.add_argument("--parts", help="dds: rates,latency,memory")
     parser.add_argument("--bauds", type=numbers, help="bus: 9600,115200")
     parser.add_argument("--clients", type=numbers, help="forward: 1,8,64")
     parser.add_argument("--programs", help="bus: gateway,libmodbus,pymodbus")
-    parser.add_argument("--parts", help="dds: rates,latency,memory")
     parser.add_argument("--delivery", choices=("byte", "fifo", "frame"), default="byte",
                         help="bus: when the driver hands over received bytes")
     parser.add_argument("--turnaround-us", type=int, default=1000, help="bus: of the station, beyond the silence")
