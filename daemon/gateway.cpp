@@ -11,6 +11,7 @@
 
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
+#include <boost/asio/post.hpp>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -291,7 +292,7 @@ void gateway::publish_everything()
         line->content.say_everything();
         say(line->content.take_samples(now()));
     }
-    statuses_.say_everything(now(), wall_now());
+    statuses_.say_everything();
 }
 
 asio::awaitable<void> gateway::every_second()
@@ -310,7 +311,8 @@ asio::awaitable<void> gateway::every_second()
         blocks_.publish();
         points_.keep_silences();
         points_.publish();
-        statuses_.look(now(), wall_now());
+        while (statuses_.look(now(), wall_now()))
+            co_await asio::post(loop_, asio::use_awaitable);
         show_status();
         second_.expires_after(status_period);
         co_await second_.async_wait(no_throw);

@@ -1,5 +1,7 @@
 #include "daemon/statuses.hpp"
 
+#include <algorithm>
+
 namespace plcgw {
 
 void published_statuses::add(client_line& line)
@@ -49,26 +51,43 @@ void published_statuses::look_at_states(time_point now, wall_time wall)
             say(each, next_of(each, wall), now);
 }
 
-void published_statuses::look(time_point now, wall_time wall)
+bool published_statuses::look(time_point now, wall_time wall)
 {
-    const auto silent = [&](const auto& row) { return row.due || now - row.said_at >= longest_silence_; };
-    for (port_row& each : ports_)
-        if (silent(each) || *each.now != each.said)
-            say(each, now);
-    for (device_row& each : devices_) {
-        const device_status next = next_of(each, wall);
-        if (silent(each) || next != each.said)
-            say(each, next, now);
+    constexpr std::size_t most = 100;
+    const std::size_t all = ports_.size() + devices_.size();
+    const std::size_t end = std::min(looked_at_ + most, all);
+    for (; looked_at_ < end; ++looked_at_) {
+        if (looked_at_ < ports_.size())
+            look(ports_[looked_at_], now);
+        else
+            look(devices_[looked_at_ - ports_.size()], now, wall);
     }
+    if (looked_at_ < all)
+        return true;
+    looked_at_ = 0;
+    return false;
 }
 
-void published_statuses::say_everything(time_point now, wall_time wall)
+void published_statuses::look(port_row& port, time_point now)
 {
+    if (port.due || now - port.said_at >= longest_silence_ || *port.now != port.said)
+        say(port, now);
+}
+
+void published_statuses::look(device_row& device, time_point now, wall_time wall)
+{
+    const device_status next = next_of(device, wall);
+    if (device.due || now - device.said_at >= longest_silence_ || next != device.said)
+        say(device, next, now);
+}
+
+void published_statuses::say_everything()
+{
+    looked_at_ = 0;
     for (port_row& each : ports_)
         each.due = true;
     for (device_row& each : devices_)
         each.due = true;
-    look(now, wall);
 }
 
 }  // namespace plcgw

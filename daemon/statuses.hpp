@@ -15,8 +15,10 @@ public:
     void add(client_line& line);  // its stations
 
     void look_at_states(time_point now, wall_time wall);  // after an exchange: a new state is news at once
-    void look(time_point now, wall_time wall);            // each second: counters that moved, and silences
-    void say_everything(time_point now, wall_time wall);
+    // Each second, for counters that moved and silences: again and again until it is false. A part at a time, so that
+    // the lines do not wait for thousands of stations.
+    bool look(time_point now, wall_time wall);
+    void say_everything();  // with the next look()
 
 private:
     struct port_row {
@@ -33,6 +35,8 @@ private:
         bool due = true;
     };
 
+    void look(port_row& port, time_point now);
+    void look(device_row& device, time_point now, wall_time wall);
     void say(port_row& port, time_point now);
     void say(device_row& device, const device_status& next, time_point now);
     device_status next_of(const device_row& device, wall_time wall) const;
@@ -42,6 +46,7 @@ private:
     std::vector<port_row> ports_;
     std::vector<device_row> devices_;
     std::vector<client_line*> lines_;
+    std::size_t looked_at_ = 0;  // ports, and behind them devices
 };
 
 }  // namespace plcgw

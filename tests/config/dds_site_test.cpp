@@ -39,7 +39,7 @@ TEST_CASE("check: QoS of topics")
          R"(2 /dds/topics/point/history is "keep-some", expected one of: keep-last)"},
         {R"("topics": {"register_block": {"deadline_ms": 1000}})",
          "2 /dds/topics/register_block/deadline_ms is 1000, but an unchanged sample comes again after 1000 ms "
-         "(longest_silence_ms) only: at least 1001"},
+         "(longest_silence_ms, or period_ms of a route) only: at least 1001"},
         {R"("topics": {"device_status": {"deadline_ms": 5000}})",
          "2 /dds/topics/device_status/deadline_ms is 5000, but an unchanged sample comes again after 10000 ms "
          "(status_silence_ms) only: at least 10001"},
@@ -92,4 +92,26 @@ TEST_CASE("check: partitions have names, the file of Cyclone DDS exists")
     CHECK(load_text(with(R"("cyclone_config": "cyclone.xml")"), folder).config.dds.settings.cyclone_config ==
           (folder / "cyclone.xml").string());
     std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("check: a deadline is not shorter than the slowest point or read")
+{
+    const std::string text =
+        with(R"("topics": {"point": {"deadline_ms": 5000}, "register_block": {"deadline_ms": 1500}})");
+    const auto site = [&](const std::string& more) { return text.substr(0, text.size() - 1) + ",\n" + more + "}"; };
+    const std::string plc = R"("plcs": [{"name": "p"}],)";
+    CHECK(said(site(plc + R"("points": [{"name": "a", "plc": "p", "device": "D1", "longest_silence_ms": 4999}])")) ==
+          "");
+    CHECK(said(site(plc + R"("points": [{"name": "a", "plc": "p", "device": "D1", "longest_silence_ms": 5000}])")) ==
+          "2 /dds/topics/point/deadline_ms is 5000, but an unchanged sample comes again after 5000 ms "
+          "(longest_silence_ms of a point) only: at least 5001");
+    CHECK(
+        said(site(plc + R"("points": [{"name": "a", "plc": "p", "device": "D1", "longest_silence_ms": 0}])")) ==
+        "2 /dds/topics/point/deadline_ms cannot be kept: point a has longest_silence_ms 0, so that it comes only when "
+        "it changes");
+    CHECK(said(site(plc + R"("lines": [{"name": "l", "device": "/dev/ttyS0"}],
+"stations": [{"name": "s", "line": "l", "unit": 1}],
+"routes": [{"name": "r", "station": "s", "table": "input", "first": 0, "plc": "p", "device": "D1", "period_ms": 2000}])")) ==
+          "2 /dds/topics/register_block/deadline_ms is 1500, but an unchanged sample comes again after 2000 ms "
+          "(longest_silence_ms, or period_ms of a route) only: at least 2001");
 }

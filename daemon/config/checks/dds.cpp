@@ -2,6 +2,7 @@
 #include "daemon/config/fields.hpp"
 #include "daemon/config/ip_address.hpp"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace plcgw::config {
@@ -68,7 +69,20 @@ void check_deadlines(check_context& c)
                            std::to_string(least.count()));
     };
     constexpr milliseconds status_period{1000};
-    look("register_block", dds.topics.register_block, dds.longest_silence, "longest_silence_ms");
+    milliseconds slowest_read = dds.longest_silence;
+    for (const route_config& each : c.config.routes)
+        if (reads(each.way) && !each.station.empty())
+            slowest_read = std::max(slowest_read, each.period);
+    look("register_block", dds.topics.register_block, slowest_read, "longest_silence_ms, or period_ms of a route");
+    milliseconds slowest_point{};
+    for (const point_config& each : c.config.points) {
+        if (each.longest_silence.count() == 0 && dds.topics.point.deadline.count() != 0)
+            c.complain("/dds/topics/point/deadline_ms", "cannot be kept: point " + each.name +
+                                                            " has longest_silence_ms 0, so that it comes only when it "
+                                                            "changes");
+        slowest_point = std::max(slowest_point, each.longest_silence);
+    }
+    look("point", dds.topics.point, slowest_point, "longest_silence_ms of a point");
     look("port_status", dds.topics.port_status, dds.status_silence, "status_silence_ms");
     look("device_status", dds.topics.device_status, dds.status_silence, "status_silence_ms");
     look("gateway_status", dds.topics.gateway_status, status_period, "its period");
