@@ -10,8 +10,8 @@ constexpr unsigned most_at_a_time = 200;  // samples; the lines do not wait for 
 }  // namespace
 
 pair_mirror::pair_mirror(const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs, const line_list& lines,
-                         hears knows)
-    : plcs_(plcs), lines_(lines), hears_(std::move(knows))
+                         hearing hears)
+    : plcs_(plcs), lines_(lines), hears_(std::move(hears))
 {
     for (const auto& each : plcs)
         memory_.add(*each);

@@ -15,10 +15,10 @@ class pair_mirror {
 public:
     using line_list = std::vector<std::unique_ptr<running_line>>;
 
-    // hears: this member hears on that line what its stations answer, and so knows it first.
-    using hears = std::function<bool(std::size_t line, time_point now)>;
+    // Whether this member hears on that line what its stations answer, and so knows it first.
+    using hearing = std::function<bool(std::size_t line, time_point now)>;
 
-    pair_mirror(const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs, const line_list& lines, hears knows);
+    pair_mirror(const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs, const line_list& lines, hearing hears);
 
     void memory_changed(const plc::simulated_plc& plc, const plc::change& changed)
     {
@@ -56,7 +56,7 @@ private:
 
     const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs_;
     const line_list& lines_;
-    hears hears_;
+    hearing hears_;
     memory_mirror memory_;
     std::map<std::pair<std::string, bool>, row_key> rows_;  // by name, and whether it is a writing half
     std::map<chunk_key, std::vector<row_key>> filled_;      // by routes that read

@@ -39,11 +39,11 @@ pair_settings settings_of(const gateway_config& config, const std::string& membe
 
 standby_member::standby_member(asio::io_context& loop, const gateway_config& config, wall_time started,
                                const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs,
-                               const pair_mirror::line_list& lines, dds_link& dds, work tasks)
+                               const pair_mirror::line_list& lines, dds_link& dds, work does)
     : loop_(loop),
       config_(config), self_{config.gateway, config.dds.member.empty() ? asio::ip::host_name() : config.dds.member,
                              started},
-      lines_(lines), dds_(dds), work_(std::move(tasks)), pair_(settings_of(config, self_.member, lines), now()),
+      lines_(lines), dds_(dds), work_(std::move(does)), pair_(settings_of(config, self_.member, lines), now()),
       mirror_(plcs, lines,
               [this](std::size_t line, time_point at) {
                   const line_heard& heard = voices_[line].heard;

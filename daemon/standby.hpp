@@ -24,7 +24,7 @@ public:
     // The lines are told to obey. The configuration has a pair.
     standby_member(asio::io_context& loop, const gateway_config& config, wall_time started,
                    const std::vector<std::unique_ptr<plc::simulated_plc>>& plcs, const pair_mirror::line_list& lines,
-                   dds_link& dds, work tasks);
+                   dds_link& dds, work does);
 
     void start();
     void leave();      // the other member may begin at once
