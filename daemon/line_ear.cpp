@@ -10,6 +10,7 @@ namespace {
 
 // Permissions end by themselves; values age although nothing is heard.
 constexpr duration round = std::chrono::milliseconds(100);
+constexpr duration stood_still = 10 * round;
 
 }  // namespace
 
@@ -47,6 +48,7 @@ bool line_ear::look()
 {
     if (voice_ == nullptr)
         return true;
+    awake_at_ = now();
     const bool may = voice_->may_speak(now());
     if (std::exchange(speaks_, may) == may)
         return may;
@@ -83,19 +85,24 @@ void line_ear::closed()
         voice_->heard.port_open = false;
 }
 
-void line_ear::heard(bytes received)
+bool line_ear::heard(bytes received)
 {
     if (!listener_)
-        return;
+        return true;
     voice_->heard.anything = now();
+    const bool is_late = now() - std::exchange(awake_at_, now()) > stood_still;
+    if (is_late && !may_speak())
+        return false;
     listener_->feed(now(), received);
     tell();
+    return true;
 }
 
 void line_ear::spoke(bytes ours)
 {
     if (!listener_)
         return;
+    awake_at_ = now();
     voice_->heard.asked = now();
     listener_->spoke(now(), ours);
     tell();

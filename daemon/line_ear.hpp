@@ -35,7 +35,9 @@ public:
 
     void opened();
     void closed();
-    void heard(bytes received);
+    // False when this process stood still while they waited, and another member may have asked meanwhile: nobody knows
+    // how old they are.
+    bool heard(bytes received);
     void spoke(bytes ours);
     time_point look_again_at() const;  // while silent: until then bytes may be waited for
     void tell();                       // the routes what was heard by now
@@ -49,6 +51,7 @@ private:
     std::optional<line_listener> listener_;  // of a serial port
     bool open_ = false;
     bool speaks_ = true;
+    time_point awake_at_{};  // looked, heard or spoke last
     asio::steady_timer pause_;
 };
 

@@ -49,6 +49,14 @@ private:
     static const modbus::answer_fault& as_fault(const modbus::answer_fault& f) { return f; }
     static modbus::answer_fault as_fault(errc why) { return {why, {}}; }
 
+    // In the middle of it, since another member may ask now.
+    template <class Transaction>
+    boost::system::error_code left(const Transaction& transaction)
+    {
+        line_free_from_ = std::max({line_free_from_, transaction.line_free_from(), now() + gap_});
+        return may_not_speak;
+    }
+
     static constexpr auto may_not_speak = asio::error::no_permission;
 
     std::function<void()> settle_;
@@ -75,10 +83,8 @@ asio::awaitable<boost::system::error_code> polling_line::carry_out(Transaction& 
         if (const auto* to_send = std::get_if<typename Transaction::send>(&action)) {
             if (again && !routes_.is_wanted(question))
                 co_return boost::system::error_code{};
-            if (!ear_.may_speak()) {
-                line_free_from_ = std::max(line_free_from_, transaction.line_free_from());
-                co_return may_not_speak;
-            }
+            if (!ear_.may_speak())
+                co_return left(transaction);
             const time_point started = now();
             ec = co_await connection_->write(to_send->adu);
             transaction.sent(started);
@@ -87,10 +93,10 @@ asio::awaitable<boost::system::error_code> polling_line::carry_out(Transaction& 
         else {
             const time_point until = std::get<typename Transaction::wait>(action).until;
             const auto size = co_await connection_->read(until, asio::buffer(received_));
-            if (size) {
+            if (size && !ear_.heard(bytes(received_).first(*size)))
+                co_return left(transaction);
+            if (size)
                 transaction.feed(now(), bytes(received_).first(*size));
-                ear_.heard(bytes(received_).first(*size));
-            }
             else if (size.error() != asio::error::timed_out)
                 ec = size.error();
         }

@@ -11,9 +11,10 @@ import sys
 from pathlib import Path
 
 MODULES = {"bus": "bus", "write": "write_latency", "dead": "dead_stations", "forward": "forwarding", "scale": "scale",
-           "smoke": "smoke"}
+           "failover": "failover", "smoke": "smoke"}
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAMS = {"PLC_GATEWAY": "daemon/plc-gateway", "BENCH_WIRE": "tests/bench/bench-wire",
+            "BENCH_BUS": "tests/bench/bench-bus",
             "LIBMODBUS_LOOP": "tests/bench/libmodbus-loop"}
 
 
@@ -37,6 +38,7 @@ def arguments():
     parser.add_argument("--programs", help="bus: gateway,libmodbus,pymodbus")
     parser.add_argument("--delivery", choices=("byte", "fifo", "frame"), default="byte",
                         help="bus: when the driver hands over received bytes")
+    parser.add_argument("--runs", type=int, default=20, help="failover: of each fault")
     parser.add_argument("--turnaround-us", type=int, default=1000, help="bus: of the station, beyond the silence")
     options = parser.parse_args()
     if wrong := [each for each in options.name if each not in MODULES]:

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <termios.h>
+#include <thread>
 
 TEST_SUITE_BEGIN("serial");
 
@@ -155,6 +156,30 @@ TEST_CASE("silent line: what others ask while we speak is heard")
     m.until([&] {
         m.others_talk();
         return m.voice.heard.foreign_request.has_value();
+    });
+}
+
+TEST_CASE("silent line: what waited while this process stood still is no news")
+{
+    member m;
+    serial_line driver(m.loop, m.config, m.routes, [] {});
+    driver.obey(m.voice);
+    m.run(driver);
+    m.until([&] {
+        m.others_talk();
+        return m.word("D100") == 2;
+    });
+    const buffer old_answer = modbus::encode_rtu({pump, {0x03, 0x06, 0x00, 0x09, 0x00, 0x09, 0x00, 0x09}});
+    m.port.say(others_ask);
+    m.port.say(old_answer);
+    std::this_thread::sleep_for(1100ms);  // SIGSTOP
+    m.run_for(200ms);
+    CHECK(m.word("D100") == 2);
+    m.until([&] {  // and it hears on
+        m.port.say(others_ask);
+        m.port.say(old_answer);
+        m.run_for(50ms);
+        return m.word("D100") == 9;
     });
 }
 
