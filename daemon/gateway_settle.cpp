@@ -46,10 +46,10 @@ void gateway::settle_server_line()
 
 void gateway::say(const std::vector<sample>& samples)
 {
+    if (standby_)
+        standby_->say(samples);  // before a subscriber knows it
     for (const sample& each : samples)
         dds_.publish(each);
-    if (standby_)
-        standby_->said(samples);
     if (samples.empty())
         return;
     blocks_.qualities_changed();

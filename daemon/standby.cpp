@@ -103,7 +103,7 @@ asio::awaitable<void> standby_member::listen(int descriptor)
         receive();
         if (pair_.take_news()) {
             obey_roles();
-            say();
+            say_beat();
         }
         log_events();
     }
@@ -165,7 +165,7 @@ void standby_member::look()
     pair_.look(now(), heard);
     pair_.take_news();
     obey_roles();
-    say();
+    say_beat();
     log_events();
 }
 
@@ -203,7 +203,7 @@ void standby_member::obey_roles()
     }
 }
 
-void standby_member::say()
+void standby_member::say_beat()
 {
     if (port_)
         port_->publish(pair_.beat());
@@ -213,7 +213,7 @@ void standby_member::leave()
 {
     pair_.leave(now());
     obey_roles();
-    say();
+    say_beat();
     log_events();
 }
 
@@ -228,13 +228,14 @@ void standby_member::settled(const running_line& line)
         mirror_.say_writes(line);
 }
 
-void standby_member::said(const std::vector<sample>& samples)
+void standby_member::say(const std::vector<sample>& samples)
 {
-    if (!is_active())
+    if (!is_active() || samples.empty())
         return;
     for (const sample& each : samples)
         mirror_.say_route(each.route);
-    published_at_ = {};  // what a subscriber knows, the other member knows
+    published_at_ = {};
+    publish();
 }
 
 // At once, but not more often than the other member needs it.
@@ -262,7 +263,7 @@ std::optional<std::string> standby_member::switch_over()
 {
     auto refused = pair_.switch_over(now());
     if (pair_.take_news())
-        say();
+        say_beat();
     return refused;
 }
 

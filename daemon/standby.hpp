@@ -38,9 +38,9 @@ public:
     std::int32_t strength() const { return is_active() ? strength_ : 0; }
 
     void memory_changed(const plc::simulated_plc& plc, const plc::change& changed);
-    void settled(const running_line& line);         // after an exchange
-    void said(const std::vector<sample>& samples);  // to subscribers: the other member has to know, too
-    void publish();                                 // what is new
+    void settled(const running_line& line);        // after an exchange
+    void say(const std::vector<sample>& samples);  // that go to subscribers: the other member is told first
+    void publish();                                // what is new
 
     nlohmann::json report() const;
     std::optional<std::string> switch_over();
@@ -52,7 +52,7 @@ private:
     void receive();
     void heard(const pair_beat& beat);
     void look();
-    void say();
+    void say_beat();
     void obey_roles();
     void log_events();
 

@@ -46,17 +46,17 @@ class Split(StandbyTest):
         self.wire.talks(0, 0)
         made.append(self.far_member(1, **standby))
         for k in range(2):
-            wait_for(f"member {k} hears the other one", lambda k=k: self.report(k).get("there", {}).get("heard"))
+            wait_for(f"member {k} hears the other one", lambda k=k: self.hears(k))
         return made
 
     def test_the_standby_stays_silent_while_the_other_speaks(self):
         self.both()
         down = self.network("down")
-        wait_for("member 1 misses the other one", lambda: not self.report(1)["there"]["heard"])
+        wait_for("member 1 misses the other one", lambda: not self.hears(1))
         self.quiet_watch(5 * LEASE)
         self.check_wire(only=0, since=down)
         up = self.network("up")
-        wait_for("member 1 hears the other one", lambda: self.report(1)["there"]["heard"], 40)
+        wait_for("member 1 hears the other one", lambda: self.hears(1), 40)
         self.quiet_watch(2 * LEASE)
         self.check_wire(only=0, since=down)
         self.assertTrue(self.wire.questions(0, up))
@@ -64,7 +64,7 @@ class Split(StandbyTest):
     def test_killed_while_they_do_not_hear_each_other(self):
         active, _ = self.both()
         self.network("down")
-        wait_for("member 1 misses the other one", lambda: not self.report(1)["there"]["heard"])
+        wait_for("member 1 misses the other one", lambda: not self.hears(1))
         active.kill()
         killed = time.monotonic_ns()
         self.takeover(1, killed)
@@ -76,11 +76,11 @@ class Split(StandbyTest):
         gives way, and no word is spoken into the other's for longer than that takes."""
         self.both()
         self.network("down")
-        wait_for("member 1 misses the other one", lambda: not self.report(1)["there"]["heard"])
+        wait_for("member 1 misses the other one", lambda: not self.hears(1))
         cut = self.wire.command("cut", 0)
         self.takeover(1, cut)
         self.network("up")
-        wait_for("they hear each other", lambda: self.report(0)["there"]["heard"], 40)
+        wait_for("they hear each other", lambda: self.hears(0), 40)
         self.quiet_watch(2 * LEASE)
         joined = self.wire.command("join", 0)
         self.quiet_watch(4 * LEASE)

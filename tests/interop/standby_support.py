@@ -87,7 +87,7 @@ class StandbyTest(InteropTest):
         self.members.append(self.member(1, **standby))
         self.subscriber = Watch(self, self.dds()).connected()
         self.subscriber.expect("meter.energy", quality="good")
-        wait_for("both know each other", lambda: all(self.report(k).get("there", {}).get("heard") for k in range(2)))
+        wait_for("both know each other", lambda: self.hears(0) and self.hears(1))
         self.quiet_watch(5 * self.PERIOD / 1000)  # in which the standby hears the line
         return self.members
 
@@ -123,15 +123,18 @@ class StandbyTest(InteropTest):
         except (OSError, ValueError):
             return {}
 
+    def hears(self, number):
+        return self.report(number).get("there", {}).get("heard", False)
+
     def takeover(self, by, since):
         """Waits until that member asks; returns after how many seconds it did."""
         return (self.wire.talks(by, since) - since) / 1e9
 
-    def heard_after(self, since_samples):
-        """Waits until the subscriber has a new good sample of the meter."""
-        return wait_for("a sample of the new active member",
-                        lambda: [each for each in self.subscriber.of("meter.energy")[since_samples:]
-                                 if each["quality"] == "good"])[0]
+    def heard_from(self, number):
+        """Waits until the subscriber has a good sample of the meter from that member."""
+        return wait_for(f"a sample of member {number}",
+                        lambda: [each for each in self.subscriber.of("meter.energy")
+                                 if each["quality"] == "good" and each["member"] == f"m{number}"])[0]
 
     def check_wire(self, only=None, since=0):
         """Nobody has spoken into anybody's words; since then only that member has asked."""
