@@ -94,8 +94,13 @@ asio::awaitable<std::string> control_server::answer(std::string line) const
 {
     auto command = nlohmann::json::parse(line, nullptr, false);
     nlohmann::json reply = refusal("a command is one JSON object");
-    if (command.is_object())
-        reply = co_await handler_(std::move(command));
+    try {
+        if (command.is_object())
+            reply = co_await handler_(std::move(command));
+    }
+    catch (const nlohmann::json::exception& wrong) {  // a value of another type than the command has
+        reply = refusal(wrong.what());
+    }
     co_return reply.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -1,5 +1,7 @@
 """plc-gateway plc, map and linktime: what they print, and their exit status."""
 
+import json
+import socket
 import subprocess
 
 from support import PATIENCE, InteropTest, binary, main
@@ -59,6 +61,26 @@ class CommandsTest(InteropTest):
         configuration["modbus_tcp"][0]["port"] = self.free_port()
         self.start_gateway(configuration)
         self.assertEqual(self.states("list"), [["main", "FX3U", "RUN"]])
+
+    def test_nonsense_on_the_control_socket(self):
+        gateway = self.start_gateway(self.configuration())
+        with socket.socket(socket.AF_UNIX) as client:
+            client.settimeout(PATIENCE)
+            client.connect(str(self.control_socket))
+            stream = client.makefile("rw")
+            commands = ["plc", "scan", "pair", "read", "write", "send", "plc-link"]
+            values = [7, None, ["x"], {"a": 1}, True, "x" * 300]
+            lines = ["nonsense", "7", "[]", "{}", '{"command": 7}'] + [
+                json.dumps({"command": command, "action": value, "name": value, "target": value, "values": value,
+                            "line": value, "units": value, "text": value, "count": value})
+                for command in commands for value in values]
+            for line in lines:
+                with self.subTest(line=line):
+                    stream.write(line + "\n")
+                    stream.flush()
+                    self.assertIn("ok", json.loads(stream.readline()))
+        self.assertEqual(self.states("list"), [["main", "FX3U", "RUN"]])
+        gateway.stop()
 
     def test_map(self):
         def answer(*queries, model="FX3U"):
