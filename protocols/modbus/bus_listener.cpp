@@ -14,8 +14,8 @@ bus_listener::bus_listener(const serial_options& timing) : timing_(timing), in_(
 
 void bus_listener::feed(time_point now, bytes received)
 {
-    fed_ += received.size();
-    came_.emplace_back(fed_, now);
+    if (timing_.mode == framing::rtu)
+        came_.emplace_back(fed_ += received.size(), now);
     in_.feed(now, received);
 }
 

@@ -69,7 +69,7 @@ private:
     buffer spoken_;                     // our last request
     unsigned echoes_ = 0;               // times that it may still be heard
     std::optional<time_point> foreign_;
-    std::deque<std::pair<std::size_t, time_point>> came_;  // up to which byte, counted from the first, and when
+    std::deque<std::pair<std::size_t, time_point>> came_;  // of RTU: up to which byte, and when
     std::size_t fed_ = 0;
     std::size_t used_ = 0;
     std::deque<heard_exchange> heard_;

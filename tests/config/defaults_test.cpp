@@ -230,6 +230,7 @@ TEST_CASE("defaults: the schema tells those of the structs")
 
     // Written out, they change nothing.
     json file = schema_defaults(root);
+    file.erase("standby");  // whoever has one gives it a priority
     CHECK(written_config(file.dump()) == written_defaults<gateway_config>());
 }
 
@@ -237,6 +238,7 @@ TEST_CASE("defaults: a config that is written out reads the same")
 {
     const json once = written_config(plant);
     json file = once;
+    file.erase("standby");
     for (auto& station : file["stations"])
         for (const char* key : {"response_timeout_ms", "retries"})
             if (station[key].is_null())

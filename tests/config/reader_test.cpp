@@ -156,7 +156,7 @@ TEST_CASE("reader: unknown keys")
          "delay_before_send_ms, delay_after_send_ms"},
         {R"("log": {)", R"("zzz": 0, "log": {)",
          "79 /zzz is no known key: known are $schema, gateway, plcs, lines, stations, routes, points, modbus_tcp, "
-         "plc_links, dds, log, control, state"},
+         "plc_links, dds, standby, log, control, state"},
         // The value of an unknown key is not looked into.
         {R"("level": "debug")", R"("level": "debug", "colour": { "baudrate": [ {} ] })",
          "79 /log/colour is no known key: known are level"},

@@ -51,7 +51,7 @@ TEST_CASE("check: a serial line that is read too seldom for its pair")
     CHECK(said(plant(R"({"name": "l", "device": "/dev/null"})", "2000")).empty());
     CHECK(said(plant(R"({"name": "l", "host": "10.0.0.1"})", "5000")).empty());
     CHECK(said(plant(R"({"name": "l", "device": "/dev/null"})", "2001")) ==
-          "2 /lines/0 warning: is read every 2001 ms at most, so that a member of the pair cannot tell by its silence "
+          "2 warning /lines/0 is read every 2001 ms at most, so that a member of the pair cannot tell by its silence "
           "for "
           "line_silence_ms whether the other one still works: read something more often, or raise line_silence_ms");
 }

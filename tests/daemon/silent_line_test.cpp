@@ -1,4 +1,5 @@
 // The driver of a pair's line on a pty: what it says and hears when it may not speak.
+#include "daemon/mewtocol_line.hpp"
 #include "daemon/serial_line.hpp"
 #include "protocols/modbus/rtu.hpp"
 #include "tests/support/plc_fixture.hpp"
@@ -60,7 +61,7 @@ struct member : test::fx3u_fixture {
         routes.add_route(route_to("D100", modbus::table::holding_registers, 0x10, 1), 0, 100ms);
     }
 
-    void run(serial_line& driver)
+    void run(line_driver& driver)
     {
         asio::co_spawn(loop, driver.run(), asio::detached);
         until([&] { return voice.heard.port_open; });
@@ -157,6 +158,34 @@ TEST_CASE("silent line: what others ask while we speak is heard")
         m.others_talk();
         return m.voice.heard.foreign_request.has_value();
     });
+}
+
+TEST_CASE("silent line: the same on a MEWTOCOL line")
+{
+    member m;
+    m.config.protocol = line_protocol::mewtocol_com;
+    route r = m.route_to("D200", modbus::table::holding_registers, 0, 1);
+    r.there = *mewtocol::parse_device("DT1");
+    client_line routes{"line", {{"press", station_number(1U), {.format = {}, .response_timeout = 100ms}}}, {}};
+    routes.add_route(std::move(r), 0, 100ms);
+    mewtocol_line driver(m.loop, m.config, routes, [] {});
+    driver.obey(m.voice);
+    m.run(driver);
+    const std::string asked = "%01#RDD0000000002**\r";
+    const std::string said = "%01$RD070008000900**\r";
+    m.until([&] {
+        m.port.say(buffer(asked.begin(), asked.end()));
+        m.run_for(20ms);
+        m.port.say(buffer(said.begin(), said.end()));
+        m.run_for(20ms);
+        return m.word("D200") == 8;
+    });
+    CHECK(m.voice.heard.foreign_request.has_value());
+    m.run_for(300ms);
+    CHECK(m.port.take().empty());
+    m.voice.speak_until(now() + 1h);
+    driver.wake();
+    m.until([&] { return !m.port.take().empty(); });
 }
 
 TEST_CASE("silent line: what waited while this process stood still is no news")

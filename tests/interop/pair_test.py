@@ -145,14 +145,30 @@ class PairTest(InteropTest):
         self.assertEqual(len(self.device.writes()), 2)
         self.check_samples()
 
+    def test_killed_and_started_again_at_once(self):
+        self.start_pair(hand_back=False)
+        self.write_something(A)
+        self.members[A].kill()
+        self.start_member(A, hand_back=False)
+        self.wait_active(B)
+        self.check_values(B)
+        holds("the new one stays standby", lambda: not self.listens(A), 3)
+        self.check_samples()
+
     def test_stopped_and_continued(self):
+        self.stop_and_continue(1)
+
+    def test_stopped_until_the_middleware_has_forgotten_it(self):
+        self.stop_and_continue(8)
+
+    def stop_and_continue(self, seconds):
         self.start_pair(hand_back=False)
         self.write_something(A)
         stuck = self.client(A)
         self.members[A].signal(signal.SIGSTOP)
         self.wait_active(B)
         self.check_values(B)
-        time.sleep(1)
+        time.sleep(seconds)
         # A request waits for it when it goes on.
         stuck.modbus.socket.sendall(bytes.fromhex("000100000006010300320002"))
         continued = time.monotonic()

@@ -3,6 +3,7 @@
 Takeover times are figures of `./test.sh --bench failover`; here they only have to come.
 """
 
+import random
 import signal
 import time
 
@@ -82,6 +83,22 @@ class Faults(StandbyTest):
         again = self.wire.talks(0, time.monotonic_ns())
         self.quiet_watch(4 * LEASE)
         self.check_wire(only=0, since=again + 500_000_000)
+        self.check_subscriber()
+
+    def test_members_that_stumble(self):
+        """Either member stands still now and then, for less or more than its lease: the role goes to and fro, and nobody
+        speaks into the other's words."""
+        self.pair()
+        dice = random.Random(5)
+        for _ in range(12):
+            member = dice.choice(self.members)
+            member.signal(signal.SIGSTOP)
+            time.sleep(dice.choice((0.1, 0.3, 0.7, 1.2, 2.5)))
+            member.signal(signal.SIGCONT)
+            time.sleep(dice.choice((0.05, 0.5, 1.5)))
+        end = time.monotonic_ns()
+        wait_for("somebody asks in the end", lambda: self.wire.events("request", end))
+        self.check_wire()
         self.check_subscriber()
 
     def test_standby_killed(self):

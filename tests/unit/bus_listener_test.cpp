@@ -5,6 +5,7 @@
 #include "tests/support/frames.hpp"
 #include "tests/support/print.hpp"
 #include "tests/support/virtual_time.hpp"
+#include "tests/unit/framing_bus_traffic.hpp"
 
 namespace plcgw::test {
 namespace {
@@ -323,6 +324,42 @@ TEST_CASE("bus listener: a foreign question that comes in place of our answer is
         of.pause(1s);
         CHECK(of.in.foreign_question() == asked);
         check_one(of, valve, asked_two, said_two);
+    }
+}
+
+// What a client and its servers say at random, with pauses that a receiver may or may not see.
+TEST_CASE("bus listener: a long talk is heard as it was said")
+{
+    for (const serial_options& timing : {rtu_line, ascii_line}) {
+        bus_traffic talk(7);
+        listening of(timing);
+        std::vector<heard_exchange> said;
+        for (int i = 0; i < 3000; ++i) {
+            const auto [asks, answers] = talk.with_neighbour(false);
+            const auto asked = parse_request(asks.pdu);
+            if (asked && !expects_answer(asks.unit, *asked))
+                continue;
+            const bool answered = talk.below(50) != 0;
+            of.hear(asks.unit, asks.pdu);
+            of.pause(duration(talk.below(6000)));
+            if (answered)
+                of.hear(answers.unit, answers.pdu);
+            of.pause(answered ? duration(talk.below(6000)) : 300ms);
+            if (!asked)
+                continue;
+            said.push_back({asks.unit, *asked, std::nullopt, {}});
+            if (const auto answer = parse_response(*asked, answers.pdu); answered && answer)
+                said.back().answer = *answer;
+        }
+        of.pause(1s);
+        REQUIRE(of.heard.size() == said.size());
+        std::size_t same = 0;
+        for (std::size_t i = 0; i < said.size(); ++i)
+            same += of.heard[i].unit == said[i].unit && of.heard[i].asked == said[i].asked &&
+                            of.heard[i].answer == said[i].answer
+                        ? 1
+                        : 0;
+        CHECK(same == said.size());
     }
 }
 

@@ -72,7 +72,7 @@ void an_hour(pair_world& w, faults& f)
 {
     w.run(5s);
     for (const time_point end = w.now + 1h; w.now < end;) {
-        for (unsigned left = 1 + f.dice() % 3; left > 0; --left) {
+        for (auto left = 1 + f.dice() % 3; left > 0; --left) {
             f.one();
             w.run(std::chrono::milliseconds(f.dice() % 4000));
         }

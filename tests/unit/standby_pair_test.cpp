@@ -298,3 +298,33 @@ TEST_CASE("pair: of two active members the lower rank is silent, and says why")
     CHECK(p.why().find("member b") != std::string::npos);
     CHECK(p.take_news());
 }
+
+TEST_CASE("pair: of two that claim at the same time the first one waits until the other has given up")
+{
+    pair_settings s;
+    s.member = "b";
+    s.lease = 500ms;
+    time_point now{1h};
+    standby_pair p(s, now);
+    pair_beat other;
+    other.member = "a";
+    other.role = pair_role::standby;
+    other.priority = s.priority;
+    const auto look = [&] {
+        p.heard(now, other);
+        p.look(now += 100ms, {});
+    };
+    look();
+    look();
+    REQUIRE(p.beat().claims);
+    other.claims = true;
+    other.term = p.beat().term;
+    for (int i = 0; i < 5; ++i) {
+        look();
+        CHECK_FALSE(p.is_active(now));
+    }
+    other.claims = false;
+    look();
+    CHECK(p.is_active(now));
+    CHECK(p.term() == other.term);
+}
