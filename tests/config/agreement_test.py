@@ -74,6 +74,8 @@ FULL = {
                    "register_count": 4}],
     "dds": {"enabled": True, "domain": 3, "interface": "lo", "peers": ["10.0.0.1"], "partition": "plant", "member": "m",
             "longest_silence_ms": 500, "blocks": [{"plc": "a", "device": "D0", "count": 4}]},
+    "standby": {"priority": 100, "hand_back": True, "lease_ms": 500, "line_silence_ms": 2000, "listen_ms": 2000,
+                "hand_back_after_ms": 5000},
     "log": {"level": "info"},
     "control": {"socket": "control.sock"},
     "state": {"folder": "state"},
