@@ -166,7 +166,19 @@ void standby_member::look()
     pair_.take_news();
     obey_roles();
     say_beat();
+    repeat();
     log_events();
+}
+
+// A subscriber drops what the new member says as long as it takes the old one for the stronger: until it hears of the
+// new strength, or until the old one's lease has run out for it, too. DDS does not keep that for it.
+void standby_member::repeat()
+{
+    if (repeat_at_.empty() || now() < repeat_at_.front())
+        return;
+    repeat_at_.pop_front();
+    if (works_)
+        work_.repeat();
 }
 
 void standby_member::obey_roles()
@@ -195,6 +207,7 @@ void standby_member::obey_roles()
     dds_.set_strength(works ? strength_ : 0);
     if (works) {
         mirror_.say_everything();
+        repeat_at_ = {now() + pair_.beat_period(), now() + config_.standby.lease * 3 / 2};
         work_.begin();
         publish();
     }

@@ -17,6 +17,7 @@ class standby_member {
 public:
     struct work {
         std::function<void()> begin;   // this member is active now
+        std::function<void()> repeat;  // what was published, to subscribers who may not have heard it
         std::function<void()> end;     // it is not any more
         std::function<void()> settle;  // memory has changed
     };
@@ -54,6 +55,7 @@ private:
     void look();
     void say_beat();
     void obey_roles();
+    void repeat();
     void log_events();
 
     asio::io_context& loop_;
@@ -68,6 +70,7 @@ private:
     line_voice answers_;
     bool works_ = false;
     std::int32_t strength_ = 0;
+    std::deque<time_point> repeat_at_;
     std::optional<pair_port> port_;
     asio::posix::stream_descriptor wakes_;  // the port has something
     asio::steady_timer timer_;

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+TEST_SUITE_BEGIN("standby");
+
 using namespace plcgw;
 
 namespace {
@@ -96,3 +98,5 @@ TEST_CASE("memory mirror: places that are not here are refused")
     CHECK_FALSE(b.mirror.apply({"main", 1000, 0, 1, {1}}, {}));
     CHECK_FALSE(b.mirror.apply({"main", 0, 4'000'000'000, 1, {1}}, {}));
 }
+
+TEST_SUITE_END();

@@ -5,6 +5,8 @@
 
 #include <random>
 
+TEST_SUITE_BEGIN("standby");
+
 using namespace plcgw;
 using namespace plcgw::test;
 
@@ -89,7 +91,7 @@ void an_hour(pair_world& w, faults& f)
 
 TEST_CASE("pair: an hour of faults with a network: never two on a wire, always one soon")
 {
-    for (unsigned seed = 1; seed <= 6; ++seed) {
+    for (unsigned seed = 1; seed <= 2; ++seed) {
         CAPTURE(seed);
         pair_world w(seed % 2 == 0);
         faults f{w, std::mt19937(seed)};
@@ -101,7 +103,7 @@ TEST_CASE("pair: an hour of faults with a network: never two on a wire, always o
 
 TEST_CASE("pair: an hour of faults, of the network too: never two on a wire")
 {
-    for (unsigned seed = 11; seed <= 16; ++seed) {
+    for (unsigned seed = 11; seed <= 12; ++seed) {
         CAPTURE(seed);
         pair_world w(seed % 2 == 0);
         faults f{w, std::mt19937(seed), true, false};
@@ -114,7 +116,7 @@ TEST_CASE("pair: an hour of faults, of the network too: never two on a wire")
 // meet another before somebody gives way.
 TEST_CASE("pair: an hour of faults, of network and cables at the same time: hardly ever, and never for long")
 {
-    for (unsigned seed = 21; seed <= 26; ++seed) {
+    for (unsigned seed = 21; seed <= 22; ++seed) {
         CAPTURE(seed);
         pair_world w(seed % 2 == 0);
         faults f{w, std::mt19937(seed), true, true};
@@ -123,3 +125,5 @@ TEST_CASE("pair: an hour of faults, of network and cables at the same time: hard
         CHECK(w.collisions.size() <= 3);
     }
 }
+
+TEST_SUITE_END();

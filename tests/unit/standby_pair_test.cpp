@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+TEST_SUITE_BEGIN("standby");
+
 using namespace plcgw;
 using namespace plcgw::test;
 
@@ -328,3 +330,5 @@ TEST_CASE("pair: of two that claim at the same time the first one waits until th
     CHECK(p.is_active(now));
     CHECK(p.term() == other.term);
 }
+
+TEST_SUITE_END();

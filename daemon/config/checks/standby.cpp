@@ -7,7 +7,7 @@ void check_standby(check_context& c)
 {
     const gateway_config& all = c.config;
     const standby_config& s = all.standby;
-    if (!s.is_configured())
+    if (!s.is_configured() || !c.is_sound("/standby") || !c.is_sound("/dds"))
         return;
     if (!all.dds.settings.enabled)
         c.complain("/standby",
