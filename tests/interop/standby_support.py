@@ -138,7 +138,9 @@ class StandbyTest(InteropTest):
 
     def check_wire(self, only=None, since=0):
         """Nobody has spoken into anybody's words; since then only that member has asked."""
-        self.assertEqual(self.wire.events("collision"), [])
+        for each in self.wire.events("collision"):
+            near = [r for r in self.wire.all if abs(r["at"] - each["at"]) < 500_000_000]
+            self.fail(f"a collision: {each}; around it: {near}")
         self.assertEqual([each for each in self.wire.events("request") if each["damaged"]], [])
         if only is not None:
             others = [each for each in self.wire.events("request", since) if each["talker"] != only]
