@@ -147,7 +147,7 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
         error_code ec;
         if (const auto* to_send = std::get_if<general_purpose::exchange::send>(&action)) {
             if (!gate_.is_open()) {
-                content.interrupted(question);
+                content.interrupted(question, now());
                 line_free_from_ = asking.line_free_from();
                 co_return error_code{};
             }
