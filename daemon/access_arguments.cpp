@@ -54,11 +54,9 @@ void access_arguments::add_form(CLI::App& command)
 
 void access_arguments::add_shared(CLI::App& command)
 {
-    command.add_option(
-        "-t,--timeout", timeout_ms_,
-        "Refuse it if it cannot begin within so many milliseconds; default 10000, by DDS 5000. By DDS no "
-        "reply is waited for 3 s later"); by DDS "
-                       "also: wait so long for the reply");
+    command.add_option("-t,--timeout", timeout_ms_,
+                       "Refuse it if it cannot begin within so many milliseconds; default 10000, by DDS 5000. By DDS "
+                       "the reply is waited for 3 s longer");
     command.add_flag("--json", options_.json, "Print the reply as a JSON object");
     command.add_option("--socket", options_.socket, "Control socket of the gateway; default: where it usually is");
 }

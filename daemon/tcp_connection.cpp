@@ -1,6 +1,7 @@
 #include "daemon/tcp_connection.hpp"
 
 #include "daemon/line_events.hpp"
+#include "daemon/log.hpp"
 #include "daemon/tcp_connect.hpp"
 
 #include <boost/asio/write.hpp>

@@ -141,7 +141,7 @@ asio::awaitable<order_outcome> write_service::await_stations(memory_write writte
     if (begun && begun->failed)
         co_return outcome_of(begun->failure);
     const char* const who = begun ? "the station has it" : "the PLC's memory has it; no route takes it to a station";
-    co_return order_outcome(order_result::ok, 0, who + overwriting(written.span()));
+    co_return order_outcome{order_result::ok, 0, who + overwriting(written.span())};
 }
 
 // Who would not see it for long is told.
@@ -176,15 +176,15 @@ asio::awaitable<order_outcome> write_service::send(message_order o, time_point b
         co_return not_found(fmt::format("there is no general-purpose line \"{}\"", o.line));
     message_line& line = **found;
     if (from == order_origin::dds && !line.allows_dds())
-        co_return order_outcome(order_result::denied, 0,
+        co_return order_outcome{order_result::denied, 0,
                                 fmt::format("line \"{}\" takes no messages by DDS: general_purpose/dds_sends in the "
                                             "configuration allows it",
-                                            o.line));
+                                            o.line)};
     if (!line.content.can_send(o.content))
         co_return rejected("with its codes a message has 1 to 4096 bytes");
     const auto number = line.content.order(std::move(o.content), now());
     if (!number)
-        co_return order_outcome(order_result::busy, 0, "too many messages wait on this line: repeat it later");
+        co_return order_outcome{order_result::busy, 0, "too many messages wait on this line: repeat it later"};
     const auto entry = std::make_shared<sending>(executor_);
     sendings_.emplace(std::pair(&line, *number), entry);
     line.wake();
@@ -200,8 +200,8 @@ asio::awaitable<order_outcome> write_service::send(message_order o, time_point b
         co_await entry->done.async_wait(no_throw);
     }
     if (entry->outcome->failed)
-        co_return order_outcome(order_result::timeout, 0, entry->outcome->reason);
-    co_return order_outcome(order_result::ok, 0, "the message is on the line");
+        co_return order_outcome{order_result::timeout, 0, entry->outcome->reason};
+    co_return order_outcome{order_result::ok, 0, "the message is on the line"};
 }
 
 void write_service::deliver(message_line& line)

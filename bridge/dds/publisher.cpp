@@ -89,7 +89,7 @@ std::vector<std::string> dds_publisher::take_refusals()
             continue;
         state_->refused[i] = status.total_count;
         if (status.last_policy_id == DDS_OWNERSHIP_QOS_POLICY_ID)
-            continue;  // `plc-gateway watch` has readers of both kinds
+            continue;  // subscribers that hear pairs and gateways alone have readers of both kinds
         news.push_back(fmt::format("a reader of {} asks for another {}", topic_name(static_cast<dds_topic>(i)),
                                    policy_name(status.last_policy_id)));
     }

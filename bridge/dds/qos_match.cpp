@@ -40,13 +40,6 @@ dds_duration_t deadline_of(const dds_qos* qos)
     return deadline;
 }
 
-dds_ownership_kind_t ownership_of(const dds_qos* qos)
-{
-    dds_ownership_kind_t kind = DDS_OWNERSHIP_SHARED;
-    dds_qget_ownership(qos, &kind);
-    return kind;
-}
-
 bool is_alive_enough(const dds_qos* offered, const dds_qos* requested)
 {
     dds_liveliness_kind_t given = DDS_LIVELINESS_AUTOMATIC;
@@ -69,8 +62,6 @@ std::vector<std::string> incompatible_policies(const dds_qos* offered, const dds
         found.emplace_back("durability");
     if (deadline_of(offered) > deadline_of(requested))
         found.emplace_back("deadline");
-    if (ownership_of(offered) != ownership_of(requested))
-        found.emplace_back("ownership");
     if (!is_alive_enough(offered, requested))
         found.emplace_back("liveliness");
     const auto accepted = representations_of(requested);

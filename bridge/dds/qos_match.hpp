@@ -8,6 +8,7 @@ struct dds_qos;
 
 namespace plcgw {
 
+// Ownership is not looked at: subscribers here hear gateways alone and pairs.
 std::vector<std::string> incompatible_policies(const dds_qos* offered, const dds_qos* requested);
 std::vector<std::string> partitions_of(const dds_qos* qos);
 

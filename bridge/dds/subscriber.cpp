@@ -6,6 +6,7 @@
 
 #include <dds/dds.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -70,14 +71,17 @@ bool take_some(dds_topic which, dds_entity_t reader, std::vector<dds_event>& eve
 }  // namespace
 
 struct dds_subscriber::state {
-    int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    std::unique_ptr<dds_participant> participant;
     struct reader {
         dds_topic which;
         dds_entity_t entity;
     };
-    // Of gateways alone and of pairs: a reader matches only writers of its own kind of ownership.
+
+    dds_settings settings;
+    int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    std::unique_ptr<dds_participant> participant;
+    dds_entity_t subscriber{};
     std::vector<reader> readers;
+    bool hears_pairs = false;
 
     ~state()
     {
@@ -85,44 +89,55 @@ struct dds_subscriber::state {
         if (descriptor >= 0)
             ::close(descriptor);
     }
+
+    dds_return_t add_reader(dds_topic which, dds_ownership_kind_t ownership)
+    {
+        const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(dds_create_listener(&descriptor),
+                                                                                       dds_delete_listener);
+        dds_lset_data_available(listener.get(), on_data);
+        const qos_ptr qos = reader_qos(settings, which);
+        dds_qset_ownership(qos.get(), ownership);
+        dds_entity_t made =
+            dds_create_topic(participant->entity(), &type_of(which), topic_name(which), nullptr, nullptr);
+        if (made >= 0)
+            made = dds_create_reader(subscriber, made, qos.get(), listener.get());
+        if (made >= 0)
+            readers.push_back({which, made});
+        return made;
+    }
+
+    // A reader matches only writers of its own kind of ownership. Not before a pair is there: gateways alone would be
+    // told of readers that ask for what they do not offer.
+    void hear_pairs()
+    {
+        if (std::exchange(hears_pairs, true))
+            return;
+        for (std::size_t i = 0; i < dds_topics; ++i)
+            if (const auto which = static_cast<dds_topic>(i); is_shared_by_a_pair(which))
+                add_reader(which, DDS_OWNERSHIP_EXCLUSIVE);
+    }
 };
 
 dds_result<dds_subscriber> dds_subscriber::create(const dds_settings& settings)
 {
     auto made = std::make_unique<state>();
+    made->settings = settings;
     if (made->descriptor < 0)
         return dds_error{std::string("cannot create an eventfd: ") + std::strerror(errno)};
     auto participant = dds_participant::open(settings);
     if (!participant)
         return participant.error();
     made->participant = std::move(*participant);
-    const dds_entity_t parent = made->participant->entity();
 
     log_capture log;
-    const dds_entity_t subscriber = dds_create_subscriber(parent, partition_qos(settings).get(), nullptr);
-    if (subscriber < 0)
-        return creation_error("DDS subscriber", subscriber, log.text());
-    const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
-        dds_create_listener(&made->descriptor), dds_delete_listener);
-    dds_lset_data_available(listener.get(), on_data);
-    const auto create_reader = [&](dds_topic which, const qos_ptr& qos) {
-        const dds_entity_t topic = dds_create_topic(parent, &type_of(which), topic_name(which), nullptr, nullptr);
-        const dds_entity_t made_now =
-            topic < 0 ? topic : dds_create_reader(subscriber, topic, qos.get(), listener.get());
-        made->readers.push_back({which, made_now});
-        return made_now;
-    };
+    made->subscriber = dds_create_subscriber(made->participant->entity(), partition_qos(settings).get(), nullptr);
+    if (made->subscriber < 0)
+        return creation_error("DDS subscriber", made->subscriber, log.text());
     // Events first: who hears the state does not miss one from then on.
     for (std::size_t i = 0; i < dds_topics; ++i) {
         const auto which = static_cast<dds_topic>(i);
-        const qos_ptr qos = reader_qos(settings, which);
-        dds_entity_t made_now = create_reader(which, qos);
-        if (made_now >= 0 && is_shared_by_a_pair(which)) {
-            dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
-            made_now = create_reader(which, qos);
-        }
-        if (made_now < 0)
-            return creation_error("DDS reader of " + std::string(to_string(which)), made_now, log.text());
+        if (const dds_return_t failed = made->add_reader(which, DDS_OWNERSHIP_SHARED); failed < 0)
+            return creation_error("DDS reader of " + std::string(to_string(which)), failed, log.text());
     }
     return dds_subscriber(std::move(made));
 }
@@ -146,6 +161,12 @@ std::vector<dds_event> dds_subscriber::take(std::size_t most)
         for (const auto& each : state_->readers)
             more = take_some(each.which, each.entity, events) || more;
     }
+    const bool is_pair = std::any_of(events.begin(), events.end(), [](const dds_event& each) {
+        const auto* const heard = std::get_if<received_status>(&each);
+        return heard != nullptr && heard->status.role != gateway_role::solo;
+    });
+    if (is_pair)
+        state_->hear_pairs();
     if (more)
         wake(state_->descriptor);
     return events;

@@ -36,7 +36,6 @@ def arguments():
                         help="measured programs run before all ordinary ones: where others use the machine, too")
     parser.add_argument("--tcp", action="store_true", help="the same wires behind device servers, not on ptys: a busy "
                         "machine delays those less; the gateway only")
-    parser.add_argument("--parts", help="dds: rates,latency,memory")
     parser.add_argument("--bauds", type=numbers, help="bus: 9600,115200")
     parser.add_argument("--clients", type=numbers, help="forward: 1,8,64")
     parser.add_argument("--programs", help="bus: gateway,libmodbus,pymodbus")

@@ -34,10 +34,10 @@ reader::reader(const dds_settings& settings) : parts_(settings)
     dds_listener_t* listener = dds_create_listener(this);
     dds_lset_data_available(listener,
                             [](dds_entity_t from, void* self) { static_cast<reader*>(self)->take_points(from); });
-    parts_.make_reader(plcgw_v1_Point_desc, point_topic, listener);
+    parts_.make_reader(plcgw_v1_Point_desc, topic_name(dds_topic::point), listener);
     dds_lset_data_available(listener,
                             [](dds_entity_t from, void* self) { static_cast<reader*>(self)->take_blocks(from); });
-    parts_.make_reader(plcgw_v1_RegisterBlock_desc, register_block_topic, listener);
+    parts_.make_reader(plcgw_v1_RegisterBlock_desc, topic_name(dds_topic::register_block), listener);
     dds_delete_listener(listener);
 }
 

@@ -48,8 +48,8 @@ dds_return_t write_block(dds_entity_t to, unsigned instance, std::uint64_t numbe
 
 writer::writer(const dds_settings& settings, const load& wanted)
     : parts_(settings), wanted_(wanted),
-      to_(wanted.blocks ? parts_.make_writer(plcgw_v1_RegisterBlock_desc, register_block_topic)
-                        : parts_.make_writer(plcgw_v1_Point_desc, point_topic)),
+      to_(wanted.blocks ? parts_.make_writer(plcgw_v1_RegisterBlock_desc, topic_name(dds_topic::register_block))
+                        : parts_.make_writer(plcgw_v1_Point_desc, topic_name(dds_topic::point))),
       thread_([this] { run(); })
 {
 }

@@ -81,6 +81,8 @@ FULL = {
                        **{name: {"enabled": False, "reliability": "reliable", "history": "keep-last",
                                  "extensibility": "final", "depth": 1000} for name in ("event", "serial_message")}},
             "blocks": [{"plc": "a", "device": "D0", "count": 4, "writable": True}]},
+    "standby": {"priority": 100, "hand_back": True, "lease_ms": 500, "line_silence_ms": 2000, "listen_ms": 2000,
+                "hand_back_after_ms": 5000},
     "log": {"level": "info"},
     "control": {"socket": "control.sock"},
     "state": {"folder": "state"},

@@ -18,6 +18,9 @@ struct writer {
         : out(made(member, shared_lease))
     {
         out.set_strength(strength);
+        gateway_status status;  // by which subscribers know that there is a pair
+        status.role = shared_lease ? gateway_role::active : gateway_role::solo;
+        out.publish(status);
     }
 
     static dds_publisher made(const char* member, std::optional<duration> shared_lease)
