@@ -1,5 +1,7 @@
 #include "daemon/fp7_line_ports.hpp"
 
+#include "daemon/read_before.hpp"
+
 #include <algorithm>
 
 namespace plcgw {
@@ -19,8 +21,55 @@ void fp7_line_ports::note(const bit_errors& wrong)
                                                                {receive_error::parity, wrong.parity}};
     for (const auto& [what, count] : counted)
         for (std::uint64_t i = 0; i < std::min(count, at_once); ++i)
-            for (const port& each : ports_)
-                each.unit->note(each.com, what);
+            note(what);
+}
+
+void fp7_line_ports::note(plc::receive_error what)
+{
+    for (const port& each : ports_)
+        each.unit->note(each.com, what);
+}
+
+void fp7_line_ports::note(plc::setting_error what)
+{
+    for (const port& each : ports_)
+        each.unit->note(each.com, what);
+}
+
+void fp7_line_ports::note(errc why)
+{
+    using plc::receive_error;
+    switch (why) {
+    case errc::overrun: return note(receive_error::overrun);
+    case errc::bad_stop_bit: return note(receive_error::framing);
+    case errc::bad_parity: return note(receive_error::parity);
+    case errc::overlong: return note(receive_error::buffer_overrun);
+    default: return;
+    }
+}
+
+void fp7_line_ports::show(const com_state& state)
+{
+    for (const port& each : ports_)
+        each.unit->show(now(), each.com, state);
+}
+
+void fp7_line_ports::sends(time_point until)
+{
+    for (const port& each : ports_)
+        each.unit->sends(now(), each.com, until);
+}
+
+void fp7_line_ports::copied()
+{
+    for (const port& each : ports_)
+        each.unit->copied(now(), each.com);
+}
+
+void fp7_line_ports::reset_done()
+{
+    for (const port& each : ports_)
+        each.unit->reset_done(now(), each.com);
 }
 
 }  // namespace plcgw

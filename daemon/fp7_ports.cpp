@@ -1,6 +1,7 @@
 #include "daemon/fp7_ports.hpp"
 
 #include "bridge/plc/models/fp7.hpp"
+#include "daemon/fp7_line_ports.hpp"
 #include "daemon/line_connection.hpp"
 
 #include <algorithm>
@@ -8,13 +9,15 @@
 namespace plcgw {
 namespace {
 
-constexpr unsigned link_port = 1;  // COM.1
+constexpr unsigned link_port = 1;        // COM.1
+constexpr unsigned initial_station = 1;  // 5.1.2
 
 plc::com_mode mode_of(line_protocol p)
 {
     switch (p) {
     case line_protocol::mewtocol_com: return plc::com_mode::mewtocol_com;
     case line_protocol::mewtocol7_com: return plc::com_mode::mewtocol7_com;
+    case line_protocol::general_purpose: return plc::com_mode::general_purpose;
     default: return plc::com_mode::modbus_rtu;
     }
 }
@@ -29,7 +32,15 @@ plc::com_card card_of(const line_config& line)
 
 plc::com_parameters com_parameters_of(const line_config& line, unsigned station)
 {
-    return {.mode = mode_of(line.protocol), .station = station, .format = format_of(line), .send_wait = line.gap};
+    plc::com_parameters of{
+        .mode = mode_of(line.protocol), .station = station, .format = format_of(line), .send_wait = line.gap};
+    if (line.protocol == line_protocol::general_purpose) {  // the codes of both are those of PMGET
+        of.send_wait = line.messages.send_wait;
+        of.start = static_cast<plc::start_code>(line.messages.start);
+        of.end = static_cast<plc::end_code>(line.messages.end);
+        of.end_silence = line.messages.end_silence;
+    }
+    return of;
 }
 
 plc::com_parameters com_parameters_of(const plc_link_station& station)
@@ -51,6 +62,13 @@ fp7_unit* fp7_ports::open(plc::simulated_plc& plc, unsigned com, const line_conf
     at->second.unit.open(now(), com, com_parameters_of(line, station), card_of(line));
     at->second.resets[com] = std::move(reset);
     return &at->second.unit;
+}
+
+void fp7_ports::open(plc::simulated_plc& plc, unsigned com, const line_config& line, line_driver& driver)
+{
+    fp7_unit* const unit = open(plc, com, line, initial_station, [&driver] { driver.reset_channel(); });
+    if (fp7_line_ports* const ports = driver.com_ports())
+        ports->add(unit, com);
 }
 
 bool fp7_ports::open(plc::simulated_plc& plc, const plc_link_station& station, std::function<void()> reset)

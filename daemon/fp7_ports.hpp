@@ -4,6 +4,7 @@
 
 #include "bridge/services/fp7_unit.hpp"
 #include "daemon/config/config.hpp"
+#include "daemon/line_driver.hpp"
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -23,6 +24,9 @@ public:
     // Nothing happens for a PLC that is no FP7, and null is returned; else what the line tells its port.
     fp7_unit* open(plc::simulated_plc& plc, unsigned com, const line_config& line, unsigned station,
                    std::function<void()> reset);
+
+    // A general-purpose line, or a client line on which the PLC is thought to ask.
+    void open(plc::simulated_plc& plc, unsigned com, const line_config& line, line_driver& driver);
 
     // A PLC link: COM.1 of the CPU, which may be in that mode (6.2.1). False, and nothing happens, when a line or
     // another link stands for that port already: a second link is one of a unit in a slot, which PMGET reads elsewhere.

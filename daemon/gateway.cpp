@@ -121,6 +121,10 @@ void gateway::make_programs(const std::string& folder)
     for (const plc_config& each : config_.plcs) {
         const std::string text = config::program_text(each, folder).value_or("");
         for (const channel_config& channel : each.channels) {
+            if (!find_plc(each.name)->model().programs) {
+                open_com_port(*find_plc(each.name), channel);
+                continue;
+            }
             running_line& line = *find_line(channel.line);
             find_plc(each.name)->attach(channel.channel, shown_line(line.config, plc::role::client, 0));
             programs_.push_back(std::make_unique<plc_program>(
@@ -128,6 +132,16 @@ void gateway::make_programs(const std::string& folder)
                 line.gate, timing_of(line.config), [this] { settle_memory(); }));
         }
     }
+}
+
+void gateway::open_com_port(plc::simulated_plc& plc, const channel_config& port)
+{
+    const auto config = std::find_if(config_.lines.begin(), config_.lines.end(),
+                                     [&](const line_config& each) { return each.name == port.line; });
+    const auto messages = std::find_if(message_lines_.begin(), message_lines_.end(),
+                                       [&](const auto& each) { return each->content.name() == port.line; });
+    line_driver& driver = messages != message_lines_.end() ? **messages : *find_line(port.line)->driver;
+    fp7_ports_.open(plc, port.channel, *config, driver);
 }
 
 unit_target gateway::target_of(const unit_config& unit)

@@ -39,6 +39,7 @@ private:
     void make_lines();
     void make_message_line(const line_config& line);
     void make_programs(const std::string& folder);
+    void open_com_port(plc::simulated_plc& plc, const channel_config& port);  // of an FP7
     void make_servers();
     void make_blocks();
     void make_copies();

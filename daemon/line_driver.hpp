@@ -8,6 +8,8 @@
 
 namespace plcgw {
 
+class fp7_line_ports;
+
 class line_driver {
 public:
     virtual ~line_driver() = default;
@@ -17,6 +19,11 @@ public:
 
     // Before run(): asks only while that says so, and tells it what is heard. Server lines never ask.
     virtual void obey(line_voice&) {}
+
+    // The ports of FP7s that it stands for, if it can, and their channel reset: what is under way is given up, and has
+    // been when the call returns.
+    virtual fp7_line_ports* com_ports() { return nullptr; }
+    virtual void reset_channel() {}
 };
 
 }  // namespace plcgw

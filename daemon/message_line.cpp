@@ -42,7 +42,7 @@ asio::awaitable<void> message_line::run()
             connection_->close(ec);
         }
         content.port_lost();
-        settle_();
+        settle();
     }
 }
 
@@ -51,6 +51,41 @@ void message_line::say_what_is_not_seen()
     if (!overruns_ && !config_.device.empty() && !std::exchange(said_overruns_, true))
         log::info("line {}: the driver of {} does not count lost characters: overruns are not seen", config_.name,
                   config_.device);
+}
+
+void message_line::show_in_ports()
+{
+    using messages::status_word;
+    if (ports_.empty())
+        return;
+    const messages::port_news news = content.take_port_news();
+    if (news.reset)
+        ports_.reset_done();
+    if (news.copied)
+        ports_.copied();
+    if (news.bad_send_count)
+        ports_.note(plc::setting_error::send_count);
+    if ((content.status(status_word::error_code) & general_purpose::receive_error::buffers_full) != 0)
+        ports_.note(plc::receive_error::buffers_full);
+    shown_.send_failed = (shown_.send_failed && !news.reset) || news.bad_send_count;
+    shown_.message_waits = content.status(status_word::waiting) > 0;
+    ports_.show(shown_);
+}
+
+void message_line::settle()
+{
+    show_in_ports();
+    settle_();
+}
+
+void message_line::reset_channel()
+{
+    content.reset_channel();
+    content.take_port_news();
+    shown_ = {};
+    ++resets_;
+    if (reading_)
+        connection_->interrupt();
 }
 
 void message_line::wake()
@@ -65,6 +100,7 @@ asio::awaitable<error_code> message_line::serve()
         std::optional<messages::line_messages::question> question;
         if (gate_.is_open())
             question = content.next(now(), wall_now());
+        show_in_ports();  // a reset goes before what follows it
         error_code ec;
         if (question)
             ec = co_await exchange(std::move(*question));
@@ -103,12 +139,12 @@ void message_line::look_for_overruns(Receiver& into)
 asio::awaitable<error_code> message_line::listen()
 {
     take_messages();  // what an exchange left
-    settle_();
+    settle();
     constexpr duration standby_round = std::chrono::milliseconds(100);
     const time_point due = gate_.is_open() ? content.wake_at() : now() + standby_round;
     const time_point until = std::min(due, content.framer().deadline());
     idle_ = true;
-    const auto size = co_await connection_->read(until, asio::buffer(received_));
+    const auto size = co_await read(until);
     idle_ = false;
     if (size) {
         look_for_overruns(content.framer());
@@ -131,19 +167,54 @@ void message_line::take(result<buffer> message)
 {
     if (message)
         connection_->meter().frames_received();
-    else
+    else {
         connection_->meter().fault(message.error());
+        ports_.note(static_cast<errc>(message.error().value()));
+    }
     content.received(std::move(message), now(), wall_now());
+}
+
+asio::awaitable<boost::system::result<std::size_t>> message_line::read(time_point until)
+{
+    reading_ = true;
+    const auto size = co_await connection_->read(until, asio::buffer(received_));
+    reading_ = false;
+    co_return size;
+}
+
+// The driver has the message before it has left.
+asio::awaitable<error_code> message_line::send(bytes message)
+{
+    const time_point started = now();
+    const unsigned resets = resets_;
+    shown_.sending = true;
+    settle();
+    const error_code ec = co_await connection_->write(message);
+    connection_->meter().frames_sent();
+    if (resets == resets_) {
+        shown_.sending = false;
+        shown_.send_failed = ec.failed();
+        if (!ec)
+            ports_.sends(started + character_time(format_of(config_), message.size()));
+        show_in_ports();
+    }
+    co_return ec;
 }
 
 asio::awaitable<error_code> message_line::exchange(messages::line_messages::question question)
 {
     general_purpose::exchange asking(content.framer(), question.message, question.answer, question.timing,
                                      line_free_from_, now());
+    const unsigned resets = resets_;
     for (;;) {
         const auto action = asking.next(now());
         if (std::holds_alternative<general_purpose::exchange::done>(action))
             break;
+        if (resets != resets_) {
+            content.given_up(question, now(), asking.attempts());
+            line_free_from_ = asking.line_free_from();
+            co_return error_code{};
+        }
         error_code ec;
         if (const auto* to_send = std::get_if<general_purpose::exchange::send>(&action)) {
             if (!gate_.is_open()) {
@@ -154,15 +225,14 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
             const time_point started = now();
             if (question.answer == expect::nothing)
                 echo_.sent(to_send->message, false, started + std::chrono::hours(1));  // in no doubt
-            ec = co_await connection_->write(to_send->message);
-            connection_->meter().frames_sent();
+            ec = co_await send(to_send->message);
             if (asking.attempts() == 0 && !ec)
                 content.sent(question, wall_now());
             asking.sent(started);
         }
         else {
             const time_point until = std::get<general_purpose::exchange::wait>(action).until;
-            const auto size = co_await connection_->read(until, asio::buffer(received_));
+            const auto size = co_await read(until);
             if (size) {
                 look_for_overruns(asking);
                 feed(asking, bytes(received_).first(*size));
@@ -182,11 +252,14 @@ asio::awaitable<error_code> message_line::exchange(messages::line_messages::ques
         connection_->meter().frames_received();
     for (unsigned i = 0; i < asking.unanswered(); ++i)
         connection_->missed_answer();
-    if (const auto& outcome = asking.outcome())
+    if (const auto& outcome = asking.outcome()) {
         content.answered(question, *outcome, now(), wall_now());
-    else
+    }
+    else {
+        shown_.send_failed = asking.attempts() == 0 || outcome.error() == errc::collision;
         content.failed(question, outcome.error(), now(), asking.unanswered());
-    settle_();
+    }
+    settle();
     co_return connection_->deaf() ? error_code(asio::error::timed_out) : error_code{};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "daemon/answer_gate.hpp"
+#include "daemon/fp7_line_ports.hpp"
 #include "daemon/line_connection.hpp"
 #include "daemon/line_driver.hpp"
 #include "daemon/line_messages_of.hpp"
@@ -23,6 +24,8 @@ public:
     asio::awaitable<void> run() override;
     void wake() override;
     const port_status& port() const override { return connection_->meter().status(); }
+    fp7_line_ports* com_ports() override { return &ports_; }
+    void reset_channel() override;
 
     bool allows_dds() const { return config_.messages.dds_sends; }
 
@@ -37,6 +40,10 @@ private:
     void look_for_overruns(Receiver& into);
     void take(result<buffer> message);
     void say_what_is_not_seen();
+    asio::awaitable<boost::system::result<std::size_t>> read(time_point until);
+    asio::awaitable<boost::system::error_code> send(bytes message);
+    void show_in_ports();
+    void settle();
 
     template <class Receiver>
     void feed(Receiver& into, bytes received);
@@ -51,7 +58,11 @@ private:
     bool said_overruns_ = false;
     time_point line_free_from_{};
     bool idle_ = false;
+    bool reading_ = false;
     answer_gate gate_;
+    fp7_line_ports ports_;
+    com_state shown_;  // by the ports
+    unsigned resets_ = 0;
 };
 
 }  // namespace plcgw

@@ -69,6 +69,7 @@ asio::awaitable<error_code> mewtocol_line::ask(Client client, std::vector<mewtoc
     const auto& outcome = transaction.outcome();
     const duration after = transaction.response_time();
     const bool own = std::holds_alternative<mewtocol::block>(question.asked);
+    show_ended(!outcome || refusal_in(outcome->back()));
     if (!own && outcome.has_error() && outcome.error() == errc::not_expressible && client.asks_one())
         routes_.answered(question, modbus::response{modbus::exception_code::illegal_data_address}, now(), wall_now());
     else if (!outcome)

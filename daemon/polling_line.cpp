@@ -77,13 +77,40 @@ asio::awaitable<error_code> polling_line::serve()
 asio::awaitable<error_code> polling_line::ask(client_line::question question)
 {
     const error_code ec = co_await exchange(question);
-    if (ec)
+    if (ec) {
+        show_ended(ec != may_not_speak);
         routes_.interrupted(question);
+    }
     else if (connection_->deaf())
         co_return asio::error::timed_out;
     if (ec == may_not_speak)  // what is to be done then depends on the line
         co_return error_code{};
     co_return ec;
+}
+
+void polling_line::show_begun()
+{
+    if (ports_.empty() || std::exchange(shown_, true))
+        return;
+    ports_.show({.sending = true});
+    settle_();
+}
+
+void polling_line::show_ended(bool failed)
+{
+    if (ports_.empty())
+        return;
+    ports_.note(connection_->take_bit_errors());
+    shown_ = false;
+    ports_.show({.send_failed = failed});
+}
+
+void polling_line::reset_channel()
+{
+    shown_ = false;
+    ++resets_;
+    if (reading_)
+        connection_->interrupt();
 }
 
 // Nothing is due. Bytes that come now belong to nobody, but they keep the line busy; an unplugged port is noticed.

@@ -14,6 +14,7 @@ asio::awaitable<error_code> serial_line::exchange(client_line::question question
     if (ec)
         co_return ec;
     const unanswered_requests late = take_leave(transaction);
+    show_ended(!transaction.outcome() || refusal_in(*transaction.outcome()));
     if (transaction.outcome() && !refusal_in(*transaction.outcome()))
         routes_.responded(question, transaction.response_time());
     if (const auto& outcome = transaction.outcome())

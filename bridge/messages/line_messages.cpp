@@ -81,6 +81,7 @@ std::optional<line_messages::question> line_messages::next(time_point now, wall_
             q.timing.response_timeout = row.response_timeout;
             return q;
         }
+        news_.bad_send_count = true;
         not_answered(*source, message.error().message());
         schedule_.finished(*source);
         ordered_ended(*source, now, "cannot send it: " + message.error().message());
@@ -134,6 +135,14 @@ void line_messages::failed(const question& q, boost::system::error_code why, tim
     ordered_ended(q.send, now, "did not send it: " + why.message());
     not_answered(q.send, why.message());
     if (attempts > 0)
+        quiet_until_ = now + attempts * q.timing.response_timeout;
+}
+
+void line_messages::given_up(const question& q, time_point now, unsigned attempts)
+{
+    schedule_.finished(q.send);
+    ordered_ended(q.send, now, "was reset while the message was sent");
+    if (attempts > 0 && q.answer == general_purpose::expect::message)
         quiet_until_ = now + attempts * q.timing.response_timeout;
 }
 
@@ -212,6 +221,7 @@ bool line_messages::read(route& by, const buffer& message, std::optional<std::si
         put(by.row.into[i], fresh);
     }
     by.brought_by = answer_to;
+    news_.copied = true;
     if (by.stands.state() == quality::comm_error || by.stands.state() == quality::stale)
         note(line_event::severity::info, "message.back", by.row.name, label("message", by.row.name) + " comes again");
     by.stands.renew(now, wall);
@@ -245,6 +255,7 @@ void line_messages::fill(raw& of, time_point now, wall_time wall)
             continue;
         }
         put(of.row.into, const_words(area).first(*size));
+        news_.copied = true;
         if (of.row.ready.plc != nullptr)
             of.row.ready.plc->memory().set_bit(of.row.ready.at, true);
         of.stands.renew(now, wall);

@@ -32,6 +32,13 @@ enum class status_word : std::uint8_t {
 };
 inline constexpr std::size_t status_words = 8;
 
+// What happened of that which the port of an FP7 shows, beside the status: 4.1 and 10.3.2.
+struct port_news {
+    bool reset = false;           // of the channel, and what follows came behind it
+    bool copied = false;          // a message went into devices, as GPRECV does it
+    bool bad_send_count = false;  // nothing to send, or too much
+};
+
 class line_messages {
 public:
     explicit line_messages(line_options options);
@@ -41,6 +48,7 @@ public:
     void add(send_row row);     // before the messages that are answers to it
     void show_status_in(plc_block where);
     void reset_by(plc_bit bit);  // its rise resets the channel (4.1, Y10)
+    void reset_channel();        // empties the buffers, clears the errors
     void start(time_point now) { schedule_.start(now); }
 
     const general_purpose::message_form& form() const { return options_.form; }
@@ -68,6 +76,9 @@ public:
         ordered_ended(q.send, now, "was lost while the message was sent");
     }
 
+    // The channel was reset while it was asked. An answer that may still come gets its time.
+    void given_up(const question& q, time_point now, unsigned attempts);
+
     // A message, without start and end codes, that somebody wants sent beside all this: a number, and the outcome of
     // each number as soon as it is known. Nothing when too many wait.
     std::optional<std::uint64_t> order(buffer content, time_point now);
@@ -88,6 +99,7 @@ public:
     void say_everything();
     std::vector<serial_message> take_messages() { return std::exchange(messages_, {}); }
     std::vector<line_event> take_events() { return std::exchange(events_, {}); }
+    port_news take_port_news() { return std::exchange(news_, {}); }
 
     const std::string& name() const { return options_.name; }
     std::size_t routes_total() const { return raws_.size() + routes_.size(); }
@@ -131,7 +143,6 @@ private:
     void look_at_buffers(raw& of);
     result<outgoing> content_of(const send_row& row) const;
     void not_answered(std::size_t send, const std::string& why);
-    void reset_channel();
     void show_status();
     void note(line_event::severity level, std::string_view code, std::string subject, std::string text)
     {
@@ -153,6 +164,7 @@ private:
     std::vector<client_line::through_outcome> order_outcomes_;
     std::vector<serial_message> messages_;
     std::vector<line_event> events_;
+    port_news news_;
     log_limiter refusals_{1, std::chrono::seconds(10)};
     log_limiter damages_{1, std::chrono::seconds(10)};
     plc_block status_;

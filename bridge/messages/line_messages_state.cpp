@@ -133,6 +133,8 @@ void line_messages::reset_channel()
         each.buffers.reset();
         each.said_full = false;
     }
+    news_ = {.reset = true};
+    show_status();
     note(line_event::severity::info, "line.reset", name(), "line " + name() + ": the channel was reset");
 }
 

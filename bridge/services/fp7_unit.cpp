@@ -60,6 +60,13 @@ void fp7_unit::show(time_point now, unsigned com, const com_state& state)
     write_words(com, p);
 }
 
+void fp7_unit::sends(time_point now, unsigned com, time_point until)
+{
+    port& p = ports_.at(com);
+    p.sending_until = std::max(until, now + scan_);
+    write_contacts(com, p);
+}
+
 void fp7_unit::copied(time_point now, unsigned com)
 {
     port& p = ports_.at(com);

@@ -41,6 +41,7 @@ public:
     void open(time_point now, unsigned com, const plc::com_parameters& set, plc::com_card card);
 
     void show(time_point now, unsigned com, const com_state& state);
+    void sends(time_point now, unsigned com, time_point until);  // what is sent has left by then; for a scan at least
     void copied(time_point now, unsigned com);  // GPRECV put a message into devices: X4 stands for a scan
     void note(unsigned com, plc::receive_error what);
     void note(unsigned com, plc::setting_error what, std::uint16_t wrong_parameter = 0);

@@ -22,7 +22,7 @@ namespace plcgw {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-// On which line a PLC's channel asks with its ADPRW instructions.
+// On which line a PLC's channel asks with its ADPRW instructions; of an FP7 the line that its COM port shows.
 struct channel_config {
     unsigned channel = 1;
     std::string line;

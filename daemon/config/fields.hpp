@@ -40,8 +40,12 @@ inline constexpr choice<log_level> log_levels[] = {{"debug", log_level::debug},
 template <class Visitor>
 void describe(Visitor& v, channel_config& c)
 {
-    v.required("channel", c.channel, "Number of the PLC's MODBUS channel", range{1, 3});
-    v.required("line", c.line, "Name of the client line that it asks with ADPRW", name_rule);
+    v.required("channel", c.channel, "Number of the PLC's MODBUS channel; of an FP7 that of the COM port", range{0, 3});
+    v.required(
+        "line", c.line,
+        "Name of the client line that it asks with ADPRW. Of an FP7 a general-purpose line or a client line, whose "
+        "flags and PMGET words it shows",
+        name_rule);
 }
 
 template <class Visitor>
@@ -51,7 +55,8 @@ void describe(Visitor& v, plc_config& c)
     v.optional("model", c.model, "PLC family: FX3S, FX3G, FX3GC, FX3U, FX3UC, LS22, LS32 or FP7", name_rule);
     v.optional("program", c.program,
                "PLC program, one instruction per string: LD M8411, MOV H5002 D8470, ... and ADPRW lines", text{});
-    v.optional("channels", c.channels, "Lines on which the PLC's own program is client");
+    v.optional("channels", c.channels,
+               "Lines on which the PLC's own program is client; of an FP7 those of its COM ports");
     v.optional("program_file", c.program_file,
                "File with the program instead; relative to the folder of this configuration", text{});
 }

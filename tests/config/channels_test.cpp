@@ -67,4 +67,61 @@ TEST_CASE("check: a channel of a PLC has one line")
     }
 }
 
+TEST_CASE("check: a COM port of an FP7 is a line of its own")
+{
+    // A line of each kind that is no server, and "s", which is one and stands for COM.2 of "q".
+    const auto ports = [](const std::string& of_p) {
+        return R"({"plcs": [{"name": "p", "model": "FP7", "channels": [)" + of_p + R"(]},
+{"name": "q", "model": "FP7", "channels": [{"channel": 1, "line": "taken"}]}, {"name": "main"}],
+"lines": [{"name": "text", "device": "/dev/a", "protocol": "general-purpose",
+  "general_purpose": {"received": [{"name": "r", "plc": "p", "device": "DT0", "count": 9, "ready": "R0"}]}},
+{"name": "rtu", "device": "/dev/b"}, {"name": "com", "device": "/dev/c", "protocol": "mewtocol-com"},
+{"name": "com7", "device": "/dev/d", "protocol": "mewtocol7-com"},
+{"name": "ascii", "device": "/dev/e", "protocol": "modbus-ascii"},
+{"name": "tcp", "host": "h", "protocol": "modbus-tcp"},
+{"name": "taken", "device": "/dev/f"},
+{"name": "s", "device": "/dev/g", "protocol": "mewtocol-com", "role": "server",
+ "units": [{"unit": 1, "plc": "p", "channel": 2}]}]})";
+    };
+    const struct {
+        std::string ports;
+        std::string expected;
+    } rows[] = {
+        {"", ""},
+        {asks(0, "text"), ""},
+        {asks(0, "rtu") + ", " + asks(1, "com"), ""},
+        {asks(3, "text"), "1 /plcs/0/channels/0/channel is a port that a FP7 does not have"},
+        {asks(2, "text"),
+         "13 /lines/7/units/0/channel is COM.2 of \"p\", which /plcs/0/channels/0/channel gives to line \"text\" "
+         "already: a port has one line and one station, give another one"},
+        {asks(0, "text") + ", " + asks(0, "rtu"),
+         "1 /plcs/0/channels/1/channel is COM.0 of \"p\", which /plcs/0/channels/0/channel gives to line \"text\" "
+         "already: a port has one line and one station, give another one"},
+        {asks(0, "text") + ", " + asks(1, "text"), "1 /plcs/0/channels/1/line is \"text\", which stands for the port "
+                                                   "of /plcs/0/channels/0 already: a line is one "
+                                                   "port"},
+        {asks(0, "taken"),
+         "2 /plcs/1/channels/0/line is \"taken\", which stands for the port of /plcs/0/channels/0 already: a line is "
+         "one port"},
+        {asks(0, "s"), "1 /plcs/0/channels/0/line is a server line: give it a unit with this \"channel\" instead"},
+    };
+    for (const auto& row : rows) {
+        INFO(row.ports);
+        CHECK(said(ports(row.ports)) == row.expected);
+    }
+    for (const char* other : {"com7", "ascii", "tcp"})
+        CHECK(said(ports(asks(0, other))) ==
+              "1 /plcs/0/channels/0/line speaks what no COM port of a FP7 asks with: it is general-purpose, modbus-rtu "
+              "or mewtocol-com");
+    CHECK(said(changed("\"R0\"", "\"X0\"", ports(""))) ==
+          "4 /lines/0/general_purpose/received/0/ready reaches into X0-X1F, where a FP7 shows its own communication: "
+          "choose other devices");
+}
+
+TEST_CASE("check: channels of other PLCs begin at 1")
+{
+    CHECK(said(wired("FX3U", asks(0, "c"), p, q)) ==
+          "1 /plcs/0/channels/0/channel is 0, where a FX3U cannot be client");
+}
+
 TEST_SUITE_END();

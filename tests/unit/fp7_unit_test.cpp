@@ -153,6 +153,27 @@ TEST_CASE("fp7 unit: sending shows for one scan at least")
     CHECK(b.is("Y1"));
 }
 
+TEST_CASE("fp7 unit: sending shows as long as the message is on the line")
+{
+    bench b;
+    b.unit.show(t0, 1, {.sending = true});
+    b.unit.sends(t0 + 1ms, 1, t0 + 500ms);
+    b.unit.show(t0 + 1ms, 1, {});
+    CHECK(b.is("Y8"));
+    CHECK(b.unit.deadline() == t0 + 500ms);
+    b.unit.run(t0 + 499ms);
+    CHECK(b.is("Y8"));
+    b.unit.run(t0 + 500ms);
+    CHECK_FALSE(b.is("Y8"));
+
+    b.unit.sends(t0 + 1s, 1, t0 + 1s + 1us);  // 9.3.1, note 2: for a scan at least
+    CHECK(b.unit.deadline() == t0 + 1s + scan);
+    b.set("Y10", true);
+    b.unit.run(t0 + 1s);
+    b.unit.reset_done(t0 + 1s, 1);
+    CHECK(b.on() == "X8 X9 XA X10 Y10");  // 4.1: a reset ends it
+}
+
 TEST_CASE("fp7 unit: a reset is requested by the rising edge alone, and stands done until the request falls")
 {
     for (const port_row& row : ports) {

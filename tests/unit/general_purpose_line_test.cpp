@@ -343,3 +343,68 @@ TEST_CASE("line messages: an answer belongs to its question")
     CHECK(b.line.status(status_word::unanswered) == 2);
     CHECK(b.word("D200") == 30);
 }
+
+TEST_CASE("line messages: what the port of an FP7 shows beside the status")
+{
+    line_bench b;
+    b.line.add(raw_row{b.block("codes", "D100", 4), b.bit_at("M0"), when_full::drop});
+    b.line.add(b.weighing());
+    b.hears("1");  // 4.1, X4: copied to devices
+    port_news news = b.line.take_port_news();
+    CHECK(news.copied);
+    CHECK_FALSE(b.line.take_port_news().copied);
+    b.hears("2");  // waits, and no pattern takes it
+    CHECK_FALSE(b.line.take_port_news().copied);
+    CHECK(b.line.status(status_word::waiting) == 1);
+    b.hears("ST,1kg");  // waits, but a pattern reads it
+    CHECK(b.line.take_port_news().copied);
+}
+
+TEST_CASE("line messages: a wrong count of bytes to send, and a reset from outside")
+{
+    line_bench b;
+    b.line.add(raw_row{b.block("codes", "D100", 4), b.bit_at("M0"), when_full::drop});
+    send_row row;
+    row.name = "command";
+    row.words = b.block("command", "D400", 4);
+    row.trigger = b.bit_at("M20");
+    b.line.add(std::move(row));
+    b.line.show_status_in(b.block("status", "D300", 8));
+    b.line.start(t0);
+    b.set("D400", 7);  // more than four words hold: 10.3.2, D+4 bit 9
+    b.settle();
+    b.set_bit("M20", true);
+    b.settle();
+    CHECK_FALSE(b.line.next(t0, noon));
+    CHECK(b.line.take_port_news().bad_send_count);
+
+    b.hears("1");
+    b.hears("2");
+    CHECK(b.word("D302") == 1);
+    b.line.received(make_error_code(errc::bad_parity), t0, noon);
+    CHECK(b.word("D300") == general_purpose::receive_error::parity);
+    b.line.reset_channel();
+    CHECK(b.word("D300") == 0);
+    CHECK(b.word("D302") == 0);
+    const port_news news = b.line.take_port_news();
+    CHECK(news.reset);
+    CHECK_FALSE(news.copied);  // before the reset
+}
+
+TEST_CASE("line messages: a reset while a message is asked leaves time for its answer")
+{
+    line_bench b;
+    b.line.add(b.asking("A", 100ms));
+    b.line.start(t0);
+    auto question = b.line.next(t0, noon);
+    REQUIRE(question);
+    b.line.given_up(*question, t0, 0);  // not sent yet
+    question = b.line.next(t0 + 100ms, noon);
+    REQUIRE(question);
+    b.line.sent(*question, noon);
+    b.line.given_up(*question, t0 + 100ms, 1);
+    CHECK_FALSE(b.line.next(t0 + 599ms, noon));
+    CHECK(b.line.next(t0 + 600ms, noon));
+    CHECK(b.line.status(status_word::unanswered) == 0);
+    CHECK(b.events().empty());
+}

@@ -40,10 +40,30 @@ private:
     std::map<std::pair<std::string, unsigned>, channel_user> users_;
 };
 
+// Its flags are those of one line.
+void check_com_lines(check_context& c)
+{
+    std::map<std::string, std::string> ports;  // by line
+    for (std::size_t i = 0; i < c.config.plcs.size(); ++i) {
+        const plc_config& p = c.config.plcs[i];
+        const plc::model* const model = plc::find_model(p.model);
+        if (model == nullptr || !model->mewtocol)
+            continue;
+        for (std::size_t n = 0; n < p.channels.size(); ++n) {
+            const std::string at = item("plcs", i, "channels") + "/" + std::to_string(n);
+            const auto [taken, is_new] = ports.try_emplace(p.channels[n].line, at);
+            if (!is_new && c.is_sound(at))
+                c.complain(at + "/line", "is \"" + p.channels[n].line + "\", which stands for the port of " +
+                                             taken->second + " already: a line is one port");
+        }
+    }
+}
+
 }  // namespace
 
 void check_channel_users(check_context& c)
 {
+    check_com_lines(c);
     channel_users users(c);
     for (std::size_t i = 0; i < c.config.plcs.size(); ++i)
         for (std::size_t n = 0; n < c.config.plcs[i].channels.size(); ++n)

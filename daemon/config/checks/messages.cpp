@@ -29,12 +29,17 @@ struct line_checker {
             c.complain(device_at, "overlaps with the devices of " + other + ": each device has one source");
     }
 
-    void is_bit(const std::string& plc_at, const std::string& at_bit, const std::string& plc, const std::string& bit)
+    // Of the PLC's program, or of this line when it sets it.
+    void is_bit(const std::string& plc_at, const std::string& at_bit, const std::string& plc, const std::string& bit,
+                bool fills = false)
     {
-        if (!devices.place_at(plc_at, at_bit, plc, bit, 1))
+        const auto place = devices.place_at(plc_at, at_bit, plc, bit, 1);
+        if (!place)
             return;
         if (!plc::is_bit_kind(plc::parse_device(bit, c.model_of(plc)->names)->kind))
             c.complain(at_bit, "is " + bit + ", expected a bit such as M0");
+        else if (fills)
+            devices.check_filled(at_bit, plc, *place, 1);
     }
 
     void check_received(const std::string& row, const received_config& r)
@@ -43,7 +48,7 @@ struct line_checker {
             return;
         fills(row + "/plc", row + "/device", r.plc, r.device, bits_of_word * r.count, "received \"" + r.name + "\"");
         if (!r.ready.empty())
-            is_bit(row + "/plc", row + "/ready", r.plc, r.ready);
+            is_bit(row + "/plc", row + "/ready", r.plc, r.ready, true);
         if (r.ready.empty() && r.when_full == when_full::stop)
             c.complain(row + "/when_full", "is stop, but without \"ready\" the buffers never fill: give the bit",
                        mistake::weight::warning);

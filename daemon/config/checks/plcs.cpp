@@ -47,6 +47,26 @@ void check_program(check_context& c, std::size_t i, const plc_config& p, const p
                          mistake::weight::warning);
 }
 
+// A COM port of an FP7: whose line it is that its flags and PMGET show. 1.1.4 and 7.1: MEWTOCOL7-COM has no master.
+void check_com_ports(check_context& c, std::size_t i, const plc_config& p, const plc::model& model)
+{
+    for (std::size_t n = 0; n < p.channels.size(); ++n) {
+        const std::string at = item("plcs", i, "channels") + "/" + std::to_string(n);
+        const auto* const line = c.line(p.channels[n].line, at + "/line");
+        constexpr line_protocol spoken[] = {line_protocol::general_purpose, line_protocol::modbus_rtu,
+                                            line_protocol::mewtocol_com};
+        if (line != nullptr && line->role != line_role::client)
+            c.complain(at + "/line", "is a server line: give it a unit with this \"channel\" instead");
+        else if (line != nullptr && std::find(std::begin(spoken), std::end(spoken), line->protocol) == std::end(spoken))
+            c.complain(at + "/line", "speaks what no COM port of a " + std::string(model.name) +
+                                         " asks with: it is general-purpose, modbus-rtu or mewtocol-com");
+        const bool exists = std::any_of(model.channels.begin(), model.channels.end(),
+                                        [&](const plc::channel& each) { return each.number == p.channels[n].channel; });
+        if (!exists && c.is_sound(at))
+            c.complain(at + "/channel", "is a port that a " + std::string(model.name) + " does not have");
+    }
+}
+
 void check_channels(check_context& c, std::size_t i, const plc_config& p, const plc::model& model)
 {
     for (std::size_t n = 0; n < p.channels.size(); ++n) {
@@ -90,7 +110,10 @@ void check_plc(check_context& c, std::size_t i, const plc_config& p)
                        ", which has neither D8400-D8485 nor ADPRW: remove it, the lines say how it communicates");
     else if (c.is_sound(item("plcs", i, "program")))
         check_program(c, i, p, *model, *program);
-    check_channels(c, i, p, *model);
+    if (model->mewtocol)
+        check_com_ports(c, i, p, *model);
+    else
+        check_channels(c, i, p, *model);
 }
 
 }  // namespace
