@@ -1,12 +1,12 @@
 #include "bridge/dds/command_client.hpp"
 
-#include "bridge/dds/command_entities.hpp"
 #include "bridge/dds/command_wire.hpp"
+#include "bridge/dds/entities.hpp"
 
 namespace plcgw {
 
 struct command_client::state {
-    command_entities entities;
+    dds_entities entities;
     dds_entity_t registers{};  // writer of WriteRequest
     dds_entity_t points{};     // writer of PointWriteRequest
     dds_entity_t messages{};   // writer of SerialSendRequest

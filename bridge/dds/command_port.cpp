@@ -1,13 +1,13 @@
 #include "bridge/dds/command_port.hpp"
 
-#include "bridge/dds/command_entities.hpp"
 #include "bridge/dds/command_wire.hpp"
+#include "bridge/dds/entities.hpp"
 
 namespace plcgw {
 
 struct command_port::state {
     dds_identity who;
-    command_entities entities;
+    dds_entities entities;
     dds_entity_t registers{};  // reader of WriteRequest
     dds_entity_t points{};     // reader of PointWriteRequest
     dds_entity_t messages{};   // reader of SerialSendRequest

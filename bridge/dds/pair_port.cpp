@@ -1,20 +1,13 @@
 #include "bridge/dds/pair_port.hpp"
 
 #include "bridge/dds/bounded_string.hpp"
-#include "bridge/dds/domain.hpp"
-#include "bridge/dds/log_capture.hpp"
+#include "bridge/dds/entities.hpp"
 #include "bridge/dds/quality_code.hpp"
 #include "pair.h"
 
-#include <dds/dds.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <optional>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 namespace plcgw {
 namespace {
@@ -30,20 +23,9 @@ static_assert(static_cast<int>(line_report::good) == plcgw_v1_PAIR_LINE_GOOD);
 constexpr std::size_t most_news = 1000;  // a large memory must not keep the loop busy
 constexpr std::size_t most_lines = 64;
 
-// Runs on Cyclone's threads with its locks held: one write and nothing else.
-void wake(int descriptor)
-{
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
-}
-
-void on_data(dds_entity_t, void* descriptor) { wake(*static_cast<int*>(descriptor)); }
-
 qos_ptr writer_qos(std::optional<duration> lease)
 {
     qos_ptr qos = state_qos();
-    const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;  // as publisher.cpp
-    dds_qset_data_representation(qos.get(), 1, &xcdr1);
     dds_qset_writer_data_lifecycle(qos.get(), false);
     // By topic: each writing asserts it, and a gateway that hangs does not write.
     if (lease)
@@ -108,8 +90,7 @@ pair_news received(const plcgw_v1_PairRoute& in)
 
 struct pair_port::state {
     pair_identity who;
-    int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    std::unique_ptr<dds_participant> participant;
+    dds_entities entities;
     dds_entity_t beat_writer{};
     dds_entity_t beat_reader{};
     dds_entity_t memory_writer{};
@@ -118,13 +99,6 @@ struct pair_port::state {
     dds_entity_t route_reader{};
     std::uint64_t sequence = 0;
     std::uint64_t drops = 0;
-
-    ~state()
-    {
-        participant.reset();  // waits for running listeners, which write to the descriptor
-        if (descriptor >= 0)
-            ::close(descriptor);
-    }
 
     void count(dds_return_t written) { drops += written == DDS_RETCODE_OK ? 0 : 1; }
 
@@ -190,47 +164,21 @@ struct pair_port::state {
 dds_result<pair_port> pair_port::create(const dds_settings& settings, pair_identity who, duration lease)
 {
     auto made = std::make_unique<state>();
-    if (made->descriptor < 0)
-        return dds_error{std::string("cannot create an eventfd: ") + std::strerror(errno)};
     made->who = std::move(who);
-    auto participant = dds_participant::open(settings);
-    if (!participant)
-        return participant.error();
-    made->participant = std::move(*participant);
-    const dds_entity_t parent = made->participant->entity();
-
-    log_capture log;
-    const qos_ptr partition = partition_qos(settings);
-    const dds_entity_t publisher = dds_create_publisher(parent, partition.get(), nullptr);
-    if (publisher < 0)
-        return creation_error("DDS publisher", publisher, log.text());
-    const dds_entity_t subscriber = dds_create_subscriber(parent, partition.get(), nullptr);
-    if (subscriber < 0)
-        return creation_error("DDS subscriber", subscriber, log.text());
-    const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
-        dds_create_listener(&made->descriptor), dds_delete_listener);
-    dds_lset_data_available(listener.get(), on_data);
-
+    dds_entities& entities = made->entities;
+    std::string failed = entities.open(settings);
     const auto open = [&](const dds_topic_descriptor_t& type, const char* name, std::optional<duration> alive,
-                          dds_entity_t& reader, dds_entity_t& writer) -> std::optional<dds_error> {
-        const dds_entity_t topic = dds_create_topic(parent, &type, name, nullptr, nullptr);
-        if (topic < 0)
-            return creation_error(std::string("DDS topic ") + name, topic, log.text());
-        reader = dds_create_reader(subscriber, topic, state_qos().get(), listener.get());
-        if (reader < 0)
-            return creation_error(std::string("DDS reader of ") + name, reader, log.text());
-        writer = dds_create_writer(publisher, topic, writer_qos(alive).get(), nullptr);
-        if (writer < 0)
-            return creation_error(std::string("DDS writer of ") + name, writer, log.text());
-        return std::nullopt;
+                          dds_entity_t& reader, dds_entity_t& writer) {
+        if (failed.empty())
+            failed = entities.add_reader(reader, type, name, state_qos());
+        if (failed.empty())
+            failed = entities.add_writer(writer, type, name, writer_qos(alive));
     };
-    if (auto failed =
-            open(plcgw_v1_PairMemory_desc, "plcgw/v1/PairMemory", {}, made->memory_reader, made->memory_writer))
-        return *failed;
-    if (auto failed = open(plcgw_v1_PairRoute_desc, "plcgw/v1/PairRoute", {}, made->route_reader, made->route_writer))
-        return *failed;
-    if (auto failed = open(plcgw_v1_PairBeat_desc, "plcgw/v1/PairBeat", lease, made->beat_reader, made->beat_writer))
-        return *failed;
+    open(plcgw_v1_PairMemory_desc, "plcgw/v1/PairMemory", {}, made->memory_reader, made->memory_writer);
+    open(plcgw_v1_PairRoute_desc, "plcgw/v1/PairRoute", {}, made->route_reader, made->route_writer);
+    open(plcgw_v1_PairBeat_desc, "plcgw/v1/PairBeat", lease, made->beat_reader, made->beat_writer);
+    if (!failed.empty())
+        return dds_error{failed};
     return pair_port(std::move(made));
 }
 
@@ -292,13 +240,11 @@ void pair_port::publish(const route_record& route)
 
 std::uint64_t pair_port::drops() const { return state_->drops; }
 
-int pair_port::descriptor() const { return state_->descriptor; }
+int pair_port::descriptor() const { return state_->entities.descriptor(); }
 
 std::vector<pair_news> pair_port::take()
 {
-    std::uint64_t wakes = 0;
-    [[maybe_unused]] const auto size = ::read(state_->descriptor, &wakes, sizeof wakes);
-
+    state_->entities.read_wakes();
     std::vector<pair_news> news;
     bool more = true;
     while (more && news.size() < most_news)
@@ -309,7 +255,7 @@ std::vector<pair_news> pair_port::take()
         more = state_->take_some<plcgw_v1_PairRoute>(state_->route_reader, news) || memory;
     }
     if (more)
-        wake(state_->descriptor);
+        state_->entities.wake();
     return news;
 }
 

@@ -1,17 +1,10 @@
 #include "bridge/dds/plc_link_port.hpp"
 
 #include "bridge/dds/bounded_string.hpp"
-#include "bridge/dds/domain.hpp"
-#include "bridge/dds/log_capture.hpp"
+#include "bridge/dds/entities.hpp"
 #include "plc_link.h"
 
-#include <dds/dds.h>
-
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <sys/eventfd.h>
-#include <unistd.h>
 
 namespace plcgw {
 namespace {
@@ -19,20 +12,9 @@ namespace {
 constexpr auto link_topic = "plcgw/v1/PlcLinkArea";
 constexpr std::size_t most_news = 1000;  // a writer of made-up names must not keep the loop busy
 
-// Runs on Cyclone's threads with its locks held: one write and nothing else.
-void wake(int descriptor)
-{
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written = ::write(descriptor, &one, sizeof one);
-}
-
-void on_data(dds_entity_t, void* descriptor) { wake(*static_cast<int*>(descriptor)); }
-
 qos_ptr writer_qos(duration lease)
 {
     qos_ptr qos = state_qos();
-    const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;  // as publisher.cpp
-    dds_qset_data_representation(qos.get(), 1, &xcdr1);
     dds_qset_writer_data_lifecycle(qos.get(), false);
     // By topic: each writing asserts it, and a gateway that hangs does not write.
     dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC, DDS_USECS(lease.count()));
@@ -99,51 +81,22 @@ bool take_some(dds_entity_t reader, std::vector<plc_link_news>& news)
 }  // namespace
 
 struct plc_link_port::state {
-    int descriptor = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    std::unique_ptr<dds_participant> participant;
+    dds_entities entities;
     dds_entity_t writer{};
     dds_entity_t reader{};
     std::uint64_t drops = 0;
-
-    ~state()
-    {
-        participant.reset();  // waits for running listeners, which write to the descriptor
-        if (descriptor >= 0)
-            ::close(descriptor);
-    }
 };
 
 dds_result<plc_link_port> plc_link_port::create(const dds_settings& settings, duration lease)
 {
     auto made = std::make_unique<state>();
-    if (made->descriptor < 0)
-        return dds_error{std::string("cannot create an eventfd: ") + std::strerror(errno)};
-    auto participant = dds_participant::open(settings);
-    if (!participant)
-        return participant.error();
-    made->participant = std::move(*participant);
-    const dds_entity_t parent = made->participant->entity();
-
-    log_capture log;
-    const qos_ptr partition = partition_qos(settings);
-    const dds_entity_t publisher = dds_create_publisher(parent, partition.get(), nullptr);
-    if (publisher < 0)
-        return creation_error("DDS publisher", publisher, log.text());
-    const dds_entity_t subscriber = dds_create_subscriber(parent, partition.get(), nullptr);
-    if (subscriber < 0)
-        return creation_error("DDS subscriber", subscriber, log.text());
-    const dds_entity_t topic = dds_create_topic(parent, &plcgw_v1_PlcLinkArea_desc, link_topic, nullptr, nullptr);
-    if (topic < 0)
-        return creation_error("DDS topic PlcLinkArea", topic, log.text());
-    const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(
-        dds_create_listener(&made->descriptor), dds_delete_listener);
-    dds_lset_data_available(listener.get(), on_data);
-    made->reader = dds_create_reader(subscriber, topic, state_qos().get(), listener.get());
-    if (made->reader < 0)
-        return creation_error("DDS reader of PlcLinkArea", made->reader, log.text());
-    made->writer = dds_create_writer(publisher, topic, writer_qos(lease).get(), nullptr);
-    if (made->writer < 0)
-        return creation_error("DDS writer of PlcLinkArea", made->writer, log.text());
+    std::string failed = made->entities.open(settings);
+    if (failed.empty())
+        failed = made->entities.add_reader(made->reader, plcgw_v1_PlcLinkArea_desc, link_topic, state_qos());
+    if (failed.empty())
+        failed = made->entities.add_writer(made->writer, plcgw_v1_PlcLinkArea_desc, link_topic, writer_qos(lease));
+    if (!failed.empty())
+        return dds_error{failed};
     return plc_link_port(std::move(made));
 }
 
@@ -178,18 +131,16 @@ void plc_link_port::publish(const plc_link_area& area)
 
 std::uint64_t plc_link_port::drops() const { return state_->drops; }
 
-int plc_link_port::descriptor() const { return state_->descriptor; }
+int plc_link_port::descriptor() const { return state_->entities.descriptor(); }
 
 std::vector<plc_link_news> plc_link_port::take()
 {
-    std::uint64_t wakes = 0;
-    [[maybe_unused]] const auto size = ::read(state_->descriptor, &wakes, sizeof wakes);
-
+    state_->entities.read_wakes();
     std::vector<plc_link_news> news;
     while (news.size() < most_news)
         if (!take_some(state_->reader, news))
             return news;
-    wake(state_->descriptor);
+    state_->entities.wake();
     return news;
 }
 

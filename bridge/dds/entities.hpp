@@ -1,4 +1,5 @@
 // Internal to bridge/dds: a participant whose readers wake a descriptor, and writers that a Fast DDS peer can read.
+// Ports that both read and write are made of it.
 #pragma once
 
 #include "bridge/dds/domain.hpp"
@@ -10,12 +11,12 @@
 
 namespace plcgw {
 
-class command_entities {
+class dds_entities {
 public:
-    command_entities();
-    ~command_entities();  // waits for running listeners
-    command_entities(const command_entities&) = delete;
-    command_entities& operator=(const command_entities&) = delete;
+    dds_entities();
+    ~dds_entities();  // waits for running listeners
+    dds_entities(const dds_entities&) = delete;
+    dds_entities& operator=(const dds_entities&) = delete;
 
     // Before the others. Empty when it worked, else why not; so do the others.
     std::string open(const dds_settings& settings);

@@ -1,4 +1,4 @@
-#include "bridge/dds/command_entities.hpp"
+#include "bridge/dds/entities.hpp"
 
 #include "bridge/dds/log_capture.hpp"
 
@@ -19,16 +19,16 @@ void on_data(dds_entity_t, void* descriptor)
 
 }  // namespace
 
-command_entities::command_entities() : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+dds_entities::dds_entities() : descriptor_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
 
-command_entities::~command_entities()
+dds_entities::~dds_entities()
 {
     participant_.reset();  // its listeners write to the descriptor
     if (descriptor_ >= 0)
         ::close(descriptor_);
 }
 
-std::string command_entities::open(const dds_settings& settings)
+std::string dds_entities::open(const dds_settings& settings)
 {
     if (descriptor_ < 0)
         return std::string("cannot create an eventfd: ") + std::strerror(errno);
@@ -45,8 +45,8 @@ std::string command_entities::open(const dds_settings& settings)
     return subscriber_ < 0 ? creation_error("DDS subscriber", subscriber_, log.text()).text : std::string();
 }
 
-std::string command_entities::add_reader(dds_entity_t& made, const dds_topic_descriptor_t& type, const char* topic,
-                                         qos_ptr qos)
+std::string dds_entities::add_reader(dds_entity_t& made, const dds_topic_descriptor_t& type, const char* topic,
+                                     qos_ptr qos)
 {
     log_capture log;
     const std::unique_ptr<dds_listener_t, decltype(&dds_delete_listener)> listener(dds_create_listener(&descriptor_),
@@ -58,8 +58,8 @@ std::string command_entities::add_reader(dds_entity_t& made, const dds_topic_des
     return made < 0 ? creation_error(std::string("DDS reader of ") + topic, made, log.text()).text : std::string();
 }
 
-std::string command_entities::add_writer(dds_entity_t& made, const dds_topic_descriptor_t& type, const char* topic,
-                                         qos_ptr qos)
+std::string dds_entities::add_writer(dds_entity_t& made, const dds_topic_descriptor_t& type, const char* topic,
+                                     qos_ptr qos)
 {
     log_capture log;
     const dds_data_representation_id_t xcdr1 = DDS_DATA_REPRESENTATION_XCDR1;  // as publisher.cpp
@@ -70,13 +70,13 @@ std::string command_entities::add_writer(dds_entity_t& made, const dds_topic_des
     return made < 0 ? creation_error(std::string("DDS writer of ") + topic, made, log.text()).text : std::string();
 }
 
-void command_entities::read_wakes() const
+void dds_entities::read_wakes() const
 {
     std::uint64_t wakes = 0;
     [[maybe_unused]] const auto size = ::read(descriptor_, &wakes, sizeof wakes);
 }
 
-void command_entities::wake() const
+void dds_entities::wake() const
 {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written = ::write(descriptor_, &one, sizeof one);
