@@ -26,7 +26,8 @@ line_options options_of(const gateway_config& all, const line_config& line)
     return {.longest_silence = all.dds.longest_silence,
             .timing = timing_of(line),
             .cache_age = line.forward_cache,
-            .parallel = line.protocol == line_protocol::modbus_tcp ? line.max_outstanding : 1};
+            .parallel = line.protocol == line_protocol::modbus_tcp ? line.max_outstanding : 1,
+            .numbered_answers = line.protocol == line_protocol::modbus_tcp};
 }
 
 std::unique_ptr<line_driver> make_driver(boost::asio::io_context& loop, const line_config& line, client_line& routes,

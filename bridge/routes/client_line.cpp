@@ -26,6 +26,8 @@ client_line::client_line(std::string name, std::vector<station> stations, const 
       forwards_(options.cache_age)
 {
     schedule_.set_parallel(options.parallel);
+    if (options.numbered_answers)
+        schedule_.set_numbered_answers();
     for (std::size_t i = 0; i < stations_.size(); ++i) {
         const modbus::serial_options& each = stations_[i].timing;
         schedule_.set_longest_delay(i, std::max(least_longest_delay, (each.retries + 2) * each.response_timeout));

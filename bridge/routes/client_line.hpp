@@ -32,6 +32,7 @@ struct line_options {
     modbus::serial_options timing{};  // of requests to units that are no station of this line
     duration cache_age{};             // forwarded reads are answered with values that are not older; 0: never
     unsigned parallel = 1;            // questions under way at a time
+    bool numbered_answers = false;    // as those of MODBUS TCP
 };
 
 class client_line {

@@ -290,6 +290,8 @@ void schedule::heard(station_state& of, outcome how, duration took, time_point n
 // Who was silent for longer than any answer takes owes none.
 void schedule::remember_unanswered(station_state& of, unanswered_requests late, time_point now)
 {
+    if (numbered_)
+        return;
     if (of.owed != 0 && now - of.last_silence > of.longest_delay)
         of.owed = 0;
     if (late.count == 0)

@@ -34,6 +34,9 @@ public:
     // Questions that may be under way at a time, 1 on a serial line: so many times the line can do.
     void set_parallel(unsigned questions) { parallel_ = questions; }
 
+    // Each answer tells whose it is, as transaction ids do: a late one is taken for no other.
+    void set_numbered_answers() { numbered_ = true; }
+
     void start(time_point now);  // spreads the first polls over their periods, at most over a second
     void ask(std::size_t item, time_point not_before = {})
     {
@@ -144,6 +147,7 @@ private:
     poll_load load_;
     double stretch_ = 1;
     unsigned parallel_ = 1;
+    bool numbered_ = false;
     std::size_t last_write_ = 0;  // writes take turns
     std::optional<duration> scan_;
 };

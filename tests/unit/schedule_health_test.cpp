@@ -44,6 +44,26 @@ TEST_CASE("schedule: a suspect station is asked the same question again, once an
     CHECK(wanted->with_retries);
 }
 
+TEST_CASE(
+    "schedule: after an answer that may belong to another question the station rests, unless answers are numbered")
+{
+    for (const bool numbered : {false, true}) {
+        CAPTURE(numbered);
+        schedule s(1);
+        s.add_poll(0, 100ms);
+        if (numbered)
+            s.set_numbered_answers();
+        s.start(t0);
+        time_point now = t0;
+        fail(s, now, 0, 500ms);
+        const auto again = s.next(now);
+        REQUIRE(again.has_value());
+        now += 10ms;
+        s.finished(*again, schedule::outcome::answered, 10ms, now);
+        CHECK((s.quiet_until(0) > now) == !numbered);
+    }
+}
+
 TEST_CASE("schedule: questions that were under way together and are lost together are one failure")
 {
     schedule s(1);
