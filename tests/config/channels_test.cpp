@@ -92,7 +92,7 @@ TEST_CASE("check: a COM port of an FP7 is a line of its own")
         {asks(0, "rtu") + ", " + asks(1, "com"), ""},
         {asks(3, "text"), "1 /plcs/0/channels/0/channel is a port that a FP7 does not have"},
         {asks(2, "text"),
-         "13 /lines/7/units/0/channel is COM.2 of \"p\", which /plcs/0/channels/0/channel gives to line \"text\" "
+         "11 /lines/7/units/0/channel is COM.2 of \"p\", which /plcs/0/channels/0/channel gives to line \"text\" "
          "already: a port has one line and one station, give another one"},
         {asks(0, "text") + ", " + asks(0, "rtu"),
          "1 /plcs/0/channels/1/channel is COM.0 of \"p\", which /plcs/0/channels/0/channel gives to line \"text\" "
