@@ -66,7 +66,7 @@ void access_arguments::add_dds(CLI::App& command)
     command.add_flag("--dds", by_dds_, "By DDS instead, from any host");
     command.add_option("-c,--config", config_file_,
                        "Take the DDS settings and the gateway's name from this configuration");
-    command.add_option("-d,--domain", dds_.dds.domain, "DDS domain")->capture_default_str();
+    command.add_option("-d,--domain", dds_.dds.domain, "DDS domain")->check(CLI::Range(0, 230))->capture_default_str();
     command.add_option("-i,--interface", dds_.dds.interface, "Network interface; empty: the first suitable")
         ->capture_default_str();
     command.add_option("--peer", dds_.dds.peers, "Address of a host that multicast does not reach");

@@ -26,6 +26,11 @@ json reply_of(const order_outcome& outcome)
     return reply;
 }
 
+// Its line is the other member's, and so is its memory: what was written here would be lost.
+const order_outcome standby_refuses{order_result::standby, 0,
+                               "this gateway is the standby of a pair: give it to the active member, `plc-gateway "
+                               "pair` says which that is"};
+
 json rejected(std::string why) { return reply_of({order_result::rejected, 0, std::move(why)}); }
 
 value_form form_in(const json& what)
@@ -75,6 +80,8 @@ try {
         json reply = co_await read(std::move(what));
         co_return reply;
     }
+    if (!is_active_())
+        co_return reply_of(standby_refuses);
     auto content = order_of(what);
     if (!content)
         co_return reply_of(content.error());
@@ -141,6 +148,8 @@ asio::awaitable<json> access_commands::read(json what)
     const std::uint32_t count = what.value("count", 1U);
     if (const auto* const device = std::get_if<device_target>(&*target))
         co_return read_devices(*device, count, *form);
+    if (!is_active_())
+        co_return reply_of(standby_refuses);
 
     const auto& station = std::get<station_target>(*target);
     const auto line =

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
+
 namespace plcgw {
 
 class access_commands {
@@ -13,8 +15,9 @@ public:
     using client_lines = std::vector<std::unique_ptr<running_line>>;
 
     access_commands(const gateway_config& config, const plc_list& plcs, const client_lines& lines,
-                    published_points& points, write_service& writes)
-        : config_(config), plcs_(plcs), lines_(lines), points_(points), writes_(writes)
+                    published_points& points, write_service& writes, std::function<bool()> is_active)
+        : config_(config), plcs_(plcs), lines_(lines), points_(points), writes_(writes),
+          is_active_(std::move(is_active))
     {
     }
 
@@ -24,7 +27,7 @@ public:
     // {"command": "read", "target": "main:D100", "count": 1, "type": "", "order": "", "timeout_ms": 0}
     // {"command": "send", "line": "scale", "text": "W<CR>", "timeout_ms": 0}
     // Reply: ok, result, code and device_code as registers.idl has them, detail; of a read also values, each a name and
-    // a value; error if it is not ok.
+    // a value; error if it is not ok. A standby of a pair reads its memory only.
     asio::awaitable<nlohmann::json> answer(nlohmann::json what);
 
 private:
@@ -41,6 +44,7 @@ private:
     const client_lines& lines_;
     published_points& points_;
     write_service& writes_;
+    std::function<bool()> is_active_;
 };
 
 }  // namespace plcgw

@@ -12,6 +12,8 @@
 namespace plcgw {
 namespace {
 
+constexpr unsigned most_characters = 4000;  // far more than any device holds, and little to allocate
+
 order_outcome rejected(std::string why) { return {order_result::rejected, 0, std::move(why)}; }
 
 std::optional<std::int64_t> whole(std::string_view text)
@@ -84,6 +86,8 @@ boost::system::result<point_form, order_outcome> form_of(const value_form& f)
         return rejected("registers are no bool: write the bit itself, or a point");
     if (form.type == value_type::text && form.characters == 0)
         return rejected("of text it has to be known how many characters there are: --count says it");
+    if (form.characters > most_characters)
+        return rejected(fmt::format("text has 1 to {} characters", most_characters));
     return form;
 }
 

@@ -68,8 +68,8 @@ void dds_commands::take()
     for (command_news& each : port_->take()) {
         if (auto* const request = std::get_if<order_request>(&each))
             take(std::move(*request));
-        else
-            log_.heard(std::get<order_reply>(each).key, std::move(std::get<order_reply>(each).outcome));
+        else if (auto* const said = std::get_if<order_reply>(&each))
+            log_.heard(said->key, std::move(said->outcome), said->done);
     }
 }
 
@@ -78,7 +78,7 @@ void dds_commands::take(order_request request)
     const bool active = is_active_();
     const auto refuse = [&](order_result why, const char* text) {
         if (active)
-            reply(request.key, {why, 0, text});
+            reply(request.key, {why, 0, text}, wall_now());
     };
     if (!request.malformed.empty()) {
         refuse(order_result::rejected, request.malformed.c_str());
@@ -90,7 +90,7 @@ void dds_commands::take(order_request request)
     }
     order_log::verdict verdict = log_.came(request.key, active ? order_log::role::active : order_log::role::standby);
     if (verdict.answer)
-        reply(request.key, *verdict.answer);
+        reply(request.key, *verdict.answer, verdict.done == wall_time::never ? wall_now() : verdict.done);
     if (verdict.execute)
         asio::co_spawn(loop_, execute(std::move(request.key), std::move(request.what)), asio::detached);
 }
@@ -99,14 +99,15 @@ asio::awaitable<void> dds_commands::execute(order_key key, order what)
 {
     auto work = carry_out_(std::move(what));
     const auto outcome = co_await std::move(work);
-    log_.done(key, outcome);
-    reply(key, outcome);
+    const wall_time done = wall_now();
+    log_.done(key, outcome, done);
+    reply(key, outcome, done);
 }
 
-void dds_commands::reply(const order_key& to, const order_outcome& outcome)
+void dds_commands::reply(const order_key& to, const order_outcome& outcome, wall_time done)
 {
     if (port_)
-        port_->reply(to, outcome, wall_now());
+        port_->reply(to, outcome, done);
 }
 
 }  // namespace plcgw

@@ -31,7 +31,7 @@ private:
     void take();
     void take(order_request request);
     asio::awaitable<void> execute(order_key key, order what);
-    void reply(const order_key& to, const order_outcome& outcome);
+    void reply(const order_key& to, const order_outcome& outcome, wall_time done);
 
     asio::io_context& loop_;
     dds_config config_;

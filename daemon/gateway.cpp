@@ -38,7 +38,7 @@ gateway::gateway(asio::io_context& loop, const config::loaded& from)
       points_(loop, dds_), statuses_(dds_, config_.dds.status_silence),
       writes_(loop.get_executor(), {config_, plcs_, lines_, message_lines_, blocks_, points_, through_},
               [this] { settle_memory(); }),
-      access_(config_, plcs_, lines_, points_, writes_),
+      access_(config_, plcs_, lines_, points_, writes_, [this] { return is_active(); }),
       commands_(
           loop, config_.dds, dds_.identity(),
           [this](order what) { return writes_.carry_out(std::move(what), order_origin::dds); },
@@ -123,7 +123,7 @@ asio::awaitable<nlohmann::json> gateway::command(nlohmann::json what)
         co_return std::move(reply);
     }
     if (what.value("command", "") == "scan")
-        co_return scan_command(lines_, what, now());
+        co_return scan_command(lines_, what, is_active(), now());
     if (what.value("command", "") == "pair")
         co_return pair_command(standby_.get(), what);
     nlohmann::json reply = control_command(plcs_, links_.get(), what, now());

@@ -41,6 +41,8 @@ void gateway::begin_work()
 
 void gateway::end_work()
 {
+    for (const auto& each : lines_)
+        each->routes.end_scan();
     for (const auto& each : servers_)
         each->stop();
     for (const auto& each : server_lines_)

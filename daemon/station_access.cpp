@@ -125,6 +125,10 @@ asio::awaitable<station_reading_result> read_station(running_line& line, station
         read.outcome = rejected(fmt::format("one request reads 1 to {} of these, up to address 65535", most));
         co_return read;
     }
+    if (number(unit) == 0 && line.config.protocol != line_protocol::modbus_tcp) {
+        read.outcome = rejected("unit 0 is all stations, of which none answers: it can be written only");
+        co_return read;
+    }
     modbus::request question = modbus::read_table{there->table, there->first, static_cast<std::uint16_t>(count)};
     bool expired = false;
     const auto answer = co_await ask(line, unit, std::move(question), begin_by, expired);

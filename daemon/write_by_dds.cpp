@@ -142,8 +142,9 @@ int carry_out(const access_options& o, const dds_access_options& how, const pars
                                 {*content, wall_now(), std::chrono::milliseconds(o.timeout_ms)},
                                 {}};
     if (!client->send(request)) {
-        fmt::print(stderr, "plc-gateway: this is more than one request carries: 1024 words, 255 bytes of text or 4096 "
-                           "bytes of a message\n");
+        fmt::print(stderr,
+                   "plc-gateway: this is more than one request carries: 1024 words, 255 bytes of text, 4096 bytes "
+                   "of a message, 128 of a point's name, 64 of other names\n");
         return usage;
     }
     const auto reply = ask(*client, request, now() + std::chrono::milliseconds(how.wait_ms));

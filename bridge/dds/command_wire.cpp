@@ -44,14 +44,23 @@ order_request begin(const In& in)
     return out;
 }
 
-template <class Out>
-void begin(Out& to, const order_request& from)
+// A name that is cut off would be another one.
+template <std::size_t Size>
+bool fill_name(char (&to)[Size], const std::string& name)
 {
-    fill_string(to.client, from.key.client);
+    fill_string(to, name);
+    return name.size() < Size;
+}
+
+// False: its names are too long.
+template <class Out>
+bool begin(Out& to, const order_request& from)
+{
     to.request_id = from.key.request;
-    fill_string(to.gateway, from.gateway);
     to.source_ns = static_cast<std::int64_t>(from.what.given);
     to.timeout_ms = static_cast<std::uint32_t>(from.what.timeout / std::chrono::milliseconds(1));
+    const bool is_whole = fill_name(to.client, from.key.client);
+    return fill_name(to.gateway, from.gateway) && is_whole;
 }
 
 template <class Sequence, class Values>
@@ -120,35 +129,34 @@ order_reply received(const plcgw_v1_WriteReply& in)
 bool fill(plcgw_v1_WriteRequest& to, const order_request& from)
 {
     const auto& o = std::get<route_order>(from.what.what);
-    begin(to, from);
-    fill_string(to.route, o.route);
-    fill_string(to.area, o.area);
+    bool fits = begin(to, from);
+    fits = fill_name(to.route, o.route) && fits;
+    fits = fill_name(to.area, o.area) && fits;
     to.first = o.first;
     to.format = o.values.are_bits ? plcgw_v1_FORMAT_BITS : plcgw_v1_FORMAT_WORDS;
     to.count = o.values.count;
     lend(to.words, o.values.words);
-    return o.values.words.size() <= most_words;
+    return fits && o.values.words.size() <= most_words;
 }
 
 bool fill(plcgw_v1_PointWriteRequest& to, const order_request& from)
 {
     const auto& o = std::get<point_order>(from.what.what);
-    begin(to, from);
-    fill_string(to.name, o.name);
+    bool fits = begin(to, from);
+    fits = fill_name(to.name, o.name) && fits;
     to.kind = static_cast<std::uint8_t>(o.value.kind);
     to.real = o.value.real;
     to.integer = o.value.integer;
-    fill_string(to.text, o.value.text);
-    return o.value.text.size() < std::size(to.text);
+    return fill_name(to.text, o.value.text) && fits;
 }
 
 bool fill(plcgw_v1_SerialSendRequest& to, const order_request& from)
 {
     const auto& o = std::get<message_order>(from.what.what);
-    begin(to, from);
-    fill_string(to.line, o.line);
+    bool fits = begin(to, from);
+    fits = fill_name(to.line, o.line) && fits;
     lend(to.content, o.content);
-    return o.content.size() <= most_bytes;
+    return fits && o.content.size() <= most_bytes;
 }
 
 void fill(plcgw_v1_WriteReply& to, const order_reply& from)

@@ -20,34 +20,36 @@ order_log::verdict order_log::came(const order_key& key, role as)
     }
     if (found == entries_.end()) {
         if (under_way_ == most_under_way_)
-            return {false, busy};
+            return {false, busy, {}};
         remember(key).is_under_way = true;
         ++under_way_;
-        return {true, {}};
+        return {true, {}, {}};
     }
     entry& of = found->second;
     if (of.is_under_way)
         return {};
     if (!of.outcome)
         of.outcome = unknown;
-    return {false, of.outcome};
+    return {false, of.outcome, of.done};
 }
 
-void order_log::done(const order_key& key, order_outcome outcome)
+void order_log::done(const order_key& key, order_outcome outcome, wall_time at)
 {
     const auto found = entries_.find(key);
     if (found == entries_.end() || !found->second.is_under_way)
         return;
-    found->second = {false, std::move(outcome)};
+    found->second = {false, std::move(outcome), at};
     --under_way_;
 }
 
-void order_log::heard(const order_key& key, order_outcome outcome)
+void order_log::heard(const order_key& key, order_outcome outcome, wall_time at)
 {
     const auto found = entries_.find(key);
     entry& of = found == entries_.end() ? remember(key) : found->second;
-    if (!of.is_under_way)
-        of.outcome = std::move(outcome);
+    if (of.is_under_way)
+        return;
+    of.outcome = std::move(outcome);
+    of.done = at;
 }
 
 order_log::entry& order_log::remember(const order_key& key)

@@ -29,13 +29,14 @@ public:
     struct verdict {
         bool execute = false;                   // and tell done()
         std::optional<order_outcome> answer{};  // to be said now
+        wall_time done = wall_time::never;      // of the answer, if somebody said when that was
     };
     verdict came(const order_key& key, role as);
 
-    void done(const order_key& key, order_outcome outcome);
+    void done(const order_key& key, order_outcome outcome, wall_time at = wall_time::never);
 
     // Another member of the pair answered it, whether the request itself came here or not.
-    void heard(const order_key& key, order_outcome outcome);
+    void heard(const order_key& key, order_outcome outcome, wall_time at = wall_time::never);
 
     std::size_t size() const { return entries_.size(); }
     std::size_t under_way() const { return under_way_; }
@@ -44,6 +45,7 @@ private:
     struct entry {
         bool is_under_way = false;
         std::optional<order_outcome> outcome{};  // none and not under way: another member's
+        wall_time done = wall_time::never;
     };
 
     entry& remember(const order_key& key);

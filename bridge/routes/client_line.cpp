@@ -317,6 +317,8 @@ void client_line::note_health(std::size_t index, health before, const std::strin
             continue;
         has_routes = true;
         lose(each, reason, code);
+        if (!each.waiting.empty() && each.on_its_way.empty())  // else what is out tells those who wait, too
+            through_unanswered(each, reason);
         replaced = replaced || each.content.state == quality::substituted;
     }
     const std::string values = replaced ? "kept or replaced as on_loss says" : "kept";

@@ -17,8 +17,12 @@ constexpr unsigned longest_timeout_ms = 10'000;
 
 json refusal(std::string why) { return {{"ok", false}, {"error", std::move(why)}}; }
 
-json start(running_line& line, const json& what, time_point now)
+json start(running_line& line, const json& what, bool is_active, time_point now)
 {
+    if (!is_active)
+        return refusal(
+            "this gateway is the standby of a pair and asks nobody: scan with the active member, `plc-gateway "
+            "pair` says which that is");
     const line_protocol protocol = line.config.protocol;
     const auto units = what.value("units", std::vector<unsigned>());
     for (const unsigned each : units)
@@ -41,12 +45,12 @@ json start(running_line& line, const json& what, time_point now)
     return {{"ok", true}};
 }
 
-json carry_out(running_line& line, const json& what, time_point now)
+json carry_out(running_line& line, const json& what, bool is_active, time_point now)
 {
     const std::string action = what.value("action", "status");
     json reply{{"ok", true}};
     if (action == "start")
-        reply = start(line, what, now);
+        reply = start(line, what, is_active, now);
     else if (action == "stop")
         line.routes.end_scan();
     else if (action != "status")
@@ -58,14 +62,15 @@ json carry_out(running_line& line, const json& what, time_point now)
 
 }  // namespace
 
-json scan_command(const std::vector<std::unique_ptr<running_line>>& lines, const json& what, time_point now)
+json scan_command(const std::vector<std::unique_ptr<running_line>>& lines, const json& what, bool is_active,
+                  time_point now)
 {
     try {
         const std::string name = what.value("line", "");
         std::string names;
         for (const auto& each : lines) {
             if (each->config.name == name)
-                return carry_out(*each, what, now);
+                return carry_out(*each, what, is_active, now);
             names.append(names.empty() ? "" : ", ").append(each->config.name);
         }
         return refusal(fmt::format("the gateway asks on no line \"{}\", but on: {}", name, names));

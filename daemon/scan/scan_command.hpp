@@ -9,8 +9,9 @@
 namespace plcgw {
 
 // {"command": "scan", "action": "start" | "status" | "stop", "line": "line1"}; start takes "units": [1, 2, ...],
-// without them all, and "timeout_ms". The answer is scan_json.hpp's with "ok": true.
+// without them all, and "timeout_ms". The answer is scan_json.hpp's with "ok": true. Without is_active, as the standby
+// of a pair, nothing is started.
 nlohmann::json scan_command(const std::vector<std::unique_ptr<running_line>>& lines, const nlohmann::json& what,
-                            time_point now);
+                            bool is_active, time_point now);
 
 }  // namespace plcgw

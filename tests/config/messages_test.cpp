@@ -58,11 +58,17 @@ TEST_CASE("check: a general-purpose line")
          "2 /plcs/0/channels/0/line is a general-purpose line: ADPRW cannot ask there"},
         {R"({ "name": "modbus", "device": "/dev/ttyUSB0" })",
          R"({ "name": "modbus", "device": "/dev/ttyUSB0", "protocol": "general-purpose" })",
-         "4 /lines/0 does nothing: give \"general_purpose\" with received, messages or sends\n"
+         "4 /lines/0 does nothing: give \"general_purpose\" with received, messages, sends or dds_sends\n"
          "23 /stations/0/line is a general-purpose line: nobody can be asked there"},
+        {R"({ "name": "modbus", "device": "/dev/ttyUSB0" })",
+         R"({ "name": "modbus", "device": "/dev/ttyUSB0", "general_purpose": { "dds_sends": true } })",
+         "4 /lines/0/general_purpose stands at a line whose \"protocol\" is not general-purpose\n"
+         "4 warning /lines/0/general_purpose/dds_sends is true, but allows nothing while /dds/writes is false"},
     };
     for (const change_row& row : rows)
         check(row.from, row.to, row.expected);
+    CHECK(said(R"({ "lines": [{ "name": "display", "device": "/dev/ttyS0", "protocol": "general-purpose",
+                               "general_purpose": { "dds_sends": true } }], "dds": { "writes": true } })") == "");
 }
 
 TEST_CASE("check: patterns and fields")

@@ -129,6 +129,15 @@ TEST_CASE("dds requests: what means nothing is marked, and what is too long is n
         client.out.send(request(route_order{"r", "holding", 0, {false, 1025, std::vector<std::uint16_t>(1025)}})));
     CHECK_FALSE(client.out.send(request(message_order{"scale", buffer(4097)})));
     CHECK_FALSE(client.out.send(request(device_order{})));
+
+    const point_value one{point_kind::integer, 1, 1, ""};
+    order_request named = request(point_order{std::string(129, 'p'), one});  // cut off it would be another point
+    CHECK_FALSE(client.out.send(named));
+    named = request(point_order{"p", one});
+    named.key.client = std::string(65, 'c');
+    CHECK_FALSE(client.out.send(named));
+    named.key.client.pop_back();
+    CHECK(client.out.send(named));
 }
 
 TEST_CASE("dds requests: only those to this gateway; replies of the other member are heard, our own are not")

@@ -128,6 +128,23 @@ class Writes(StandbyTest):
         self.check_writes(1001, 1002, 1003, 1004)
         self.check_wire()
 
+    def test_commands_to_the_standby(self):
+        """It asks nobody and says so at once; its memory may be read. What the active member scans ends with its role."""
+        self.pair()
+        for what in ({"command": "write", "target": "main:D10", "values": ["5"]},
+                     {"command": "write", "target": "pump/holding:10", "values": ["5"]},
+                     {"command": "read", "target": "pump/holding:10"},
+                     {"command": "send", "line": "line", "text": "W"}):
+            self.assertEqual(self.command(1, **what)["result"], "STANDBY", what)
+        refused = self.command(1, command="scan", action="start", line="line")
+        self.assertFalse(refused["ok"])
+        self.assertIn("standby", refused["error"])
+        self.assertEqual(self.command(1, command="read", target="main:D1000", count=4)["result"], "OK")
+        self.assertEqual(self.command(0, command="scan", action="start", line="line")["state"], "running")
+        self.assertTrue(self.command(0, command="pair", action="switch")["ok"])
+        wait_for("the scan has ended", lambda: self.command(0, command="scan", line="line")["state"] == "stopped")
+        self.check_wire()
+
     def test_what_a_client_wrote_while_the_active_member_died(self):
         """Values follow each other quickly, and the member dies in the middle: what it had confirmed last is written in
         the end, and nothing twice."""

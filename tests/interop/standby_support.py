@@ -112,14 +112,18 @@ class StandbyTest(InteropTest):
                            "hand_back_after_ms": 1000, "listen_ms": int(2000 * LEASE), **standby}
         return made
 
+    def command(self, number, **what):
+        """The answer of the control socket of a member."""
+        with socket.socket(socket.AF_UNIX) as asking:
+            asking.settimeout(PATIENCE)
+            asking.connect(str(self.folder / f"control{number}.sock"))
+            asking.sendall(json.dumps(what).encode() + b"\n")
+            return json.loads(asking.makefile().readline())
+
     def report(self, number):
         """What the control socket of a member says of the pair."""
         try:
-            with socket.socket(socket.AF_UNIX) as asking:
-                asking.settimeout(PATIENCE)
-                asking.connect(str(self.folder / f"control{number}.sock"))
-                asking.sendall(b'{"command": "pair", "action": "show"}\n')
-                return json.loads(asking.makefile().readline())
+            return self.command(number, command="pair", action="show")
         except (OSError, ValueError):
             return {}
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import socket
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
@@ -63,6 +64,19 @@ class WritesTest(InteropTest):
                          answer[1])
         for part in parts:
             self.assertIn(part, answer[1]["detail"])
+
+    def test_readings_that_cannot_be(self):
+        """Nothing is made up, and no number in a command makes the gateway allocate gigabytes."""
+        self.start()
+        self.expect(self.local("read", "line#0/holding:1"), 1, "REJECTED", "unit 0 is all stations")
+        for command in ({"command": "write", "target": "main:D300", "values": ["a", "b"]},
+                        {"command": "read", "target": "main:D300", "count": 1 << 30},
+                        {"command": "read", "target": "one/holding:50", "count": 2}):
+            with socket.socket(socket.AF_UNIX) as asking:
+                asking.settimeout(PATIENCE)
+                asking.connect(str(self.control_socket))
+                asking.sendall(json.dumps({**command, "type": "text", "characters": 0xFFFFFFFF}).encode() + b"\n")
+                self.assertEqual(json.loads(asking.makefile().readline())["result"], "REJECTED")
 
     def test_what_a_device_takes_and_refuses_by_dds(self):
         self.start()

@@ -107,6 +107,18 @@ TEST_CASE("order log: a reply of another does not touch what is under way here")
     CHECK(log.came(k1, active).answer == fine);
 }
 
+TEST_CASE("order log: a repeated answer says when it was done, here or by another member")
+{
+    order_log log;
+    log.came(k1, active);
+    log.done(k1, fine, wall_time{17});
+    CHECK(log.came(k1, active).done == wall_time{17});
+    log.heard({"panel", 9}, fine, wall_time{18});
+    CHECK(log.came({"panel", 9}, active).done == wall_time{18});
+    log.came({"panel", 10}, order_log::role::standby);
+    CHECK(log.came({"panel", 10}, active).done == wall_time::never);
+}
+
 TEST_CASE("orders: until when they may begin")
 {
     constexpr std::int64_t noon = 1'700'000'000'000'000'000;

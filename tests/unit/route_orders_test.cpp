@@ -13,9 +13,11 @@ namespace {
 using words = std::vector<std::uint16_t>;
 
 struct order_fixture : line_fixture {
-    explicit order_fixture(direction way = direction::write)
+    explicit order_fixture(direction way = direction::write, bool is_polled = false)
     {
         line.add_route(route_to("D100", table::holding_registers, 0, 2, way), 0, 1s);
+        if (is_polled)
+            line.add_route(route_to("D200", table::input_registers, 0, 2), 0, 1s);
         line.port_opened();
         line.start(t0);
         for (int i = 0; way == direction::read_write && i < 1; ++i)
@@ -160,6 +162,32 @@ TEST_CASE("orders: a station that is known to be down, and an absent port, are t
     const auto outcome = f.outcome();
     CHECK(outcome.failed == exception_code::gateway_path_unavailable);
     CHECK(outcome.goes_on);
+}
+
+TEST_CASE("orders: those who wait while their station goes down by another question are told at once")
+{
+    for (const direction way : {direction::write, direction::write_through, direction::periodic_write}) {
+        CAPTURE(static_cast<int>(way));
+        order_fixture f(way, true);
+        f.device_has(1, 2);
+        const auto poll = [&f] {
+            auto q = f.next();
+            while (!std::holds_alternative<read_table>(q.request())) {
+                f.answer(q, written{});
+                q = f.next();
+            }
+            return q;
+        };
+        f.fail(poll());
+        const auto second = poll();  // the station is suspect, and is asked
+        f.writes(7, 8).end();
+        CHECK(f.line.take_through().empty());
+        f.fail(second);
+        const auto outcome = f.outcome();
+        CHECK(outcome.failed == exception_code::gateway_target_failed_to_respond);
+        CHECK(outcome.goes_on == (way != direction::write_through));
+        CHECK(f.word("D100") == (way == direction::write_through ? 1 : 7));
+    }
 }
 
 TEST_CASE("orders: those who wait when the port is lost are told")

@@ -27,7 +27,7 @@ void check_way(check_context& c, std::size_t i, const line_config& l, bool seria
 bool has_messages(const line_config& l)
 {
     const general_purpose_config& g = l.messages;
-    return !g.received.empty() || !g.messages.empty() || !g.sends.empty();
+    return !g.received.empty() || !g.messages.empty() || !g.sends.empty() || g.dds_sends;
 }
 
 void check_general_purpose_line(check_context& c, std::size_t i, const line_config& l)
@@ -37,7 +37,8 @@ void check_general_purpose_line(check_context& c, std::size_t i, const line_conf
     if (!l.units.empty() && c.is_sound(item("lines", i)))
         c.complain(item("lines", i, "units"), "stands at a general-purpose line, where nobody has a unit id");
     if (!has_messages(l) && c.is_sound(item("lines", i)))
-        c.complain(item("lines", i), "does nothing: give \"general_purpose\" with received, messages or sends");
+        c.complain(item("lines", i),
+                   "does nothing: give \"general_purpose\" with received, messages, sends or dds_sends");
 }
 
 void check_line(check_context& c, port_users& users, std::size_t i, const line_config& l)
