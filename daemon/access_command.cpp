@@ -28,8 +28,8 @@ json reply_of(const order_outcome& outcome)
 
 // Its line is the other member's, and so is its memory: what was written here would be lost.
 const order_outcome standby_refuses{order_result::standby, 0,
-                               "this gateway is the standby of a pair: give it to the active member, `plc-gateway "
-                               "pair` says which that is"};
+                                    "this gateway is the standby of a pair: give it to the active member, `plc-gateway "
+                                    "pair` says which that is"};
 
 json rejected(std::string why) { return reply_of({order_result::rejected, 0, std::move(why)}); }
 
