@@ -25,10 +25,13 @@ public:
     void keep_open();
     void close();
 
+    // This member becomes active: what came until now the other one had to obey, and is only remembered.
+    void take_as_standby();
+
 private:
     bool open();
     asio::awaitable<void> listen();
-    void take();
+    bool take();  // false: nothing was there
     void take(order_request request);
     asio::awaitable<void> execute(order_key key, order what);
     void reply(const order_key& to, const order_outcome& outcome, wall_time done);

@@ -13,8 +13,8 @@ void gateway::make_standby()
 {
     if (!config_.standby.is_configured())
         return;
-    standby_member::work work{[this] { begin_work(); }, [this] { publish_everything(); }, [this] { end_work(); },
-                              [this] { settle_memory(); }};
+    standby_member::work work{[this] { commands_.take_as_standby(); }, [this] { begin_work(); },
+                              [this] { publish_everything(); }, [this] { end_work(); }, [this] { settle_memory(); }};
     standby_ = std::make_unique<standby_member>(loop_, config_, started_, plcs_, lines_, dds_, std::move(work));
     dds_.add_part([this] { standby_->renew_dds(); });
     line_voice& answers = standby_->answers();

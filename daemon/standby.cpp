@@ -184,6 +184,8 @@ void standby_member::repeat()
 void standby_member::obey_roles()
 {
     const bool works = pair_.is_active(now());
+    if (works && !works_)
+        work_.prepare();
     if (works)
         answers_.speak_until(pair_.lease_until());
     else

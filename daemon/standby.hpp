@@ -16,10 +16,11 @@ namespace plcgw {
 class standby_member {
 public:
     struct work {
-        std::function<void()> begin;   // this member is active now
-        std::function<void()> repeat;  // what was published, to subscribers who may not have heard it
-        std::function<void()> end;     // it is not any more
-        std::function<void()> settle;  // memory has changed
+        std::function<void()> prepare;  // this member becomes active now
+        std::function<void()> begin;    // this member is active now
+        std::function<void()> repeat;   // what was published, to subscribers who may not have heard it
+        std::function<void()> end;      // it is not any more
+        std::function<void()> settle;   // memory has changed
     };
 
     // The lines are told to obey. The configuration has a pair.

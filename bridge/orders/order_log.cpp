@@ -42,12 +42,19 @@ void order_log::done(const order_key& key, order_outcome outcome, wall_time at)
     --under_way_;
 }
 
+void order_log::given_up(const order_key& key)
+{
+    const auto found = entries_.find(key);
+    if (found == entries_.end() || !found->second.is_under_way)
+        return;
+    found->second.is_under_way = false;
+    --under_way_;
+}
+
 void order_log::heard(const order_key& key, order_outcome outcome, wall_time at)
 {
     const auto found = entries_.find(key);
     entry& of = found == entries_.end() ? remember(key) : found->second;
-    if (of.is_under_way)
-        return;
     of.outcome = std::move(outcome);
     of.done = at;
 }

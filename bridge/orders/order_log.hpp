@@ -27,7 +27,7 @@ public:
     enum class role : std::uint8_t { active, standby };
 
     struct verdict {
-        bool execute = false;                   // and tell done()
+        bool execute = false;                   // and tell done(), or given_up()
         std::optional<order_outcome> answer{};  // to be said now
         wall_time done = wall_time::never;      // of the answer, if somebody said when that was
     };
@@ -35,7 +35,11 @@ public:
 
     void done(const order_key& key, order_outcome outcome, wall_time at = wall_time::never);
 
-    // Another member of the pair answered it, whether the request itself came here or not.
+    // This member is not active any more and says nothing: the other one does, as it knows it.
+    void given_up(const order_key& key);
+
+    // Another member of the pair answered it, whether the request itself came here or not. Of one under way here, too:
+    // it counts if that is given up.
     void heard(const order_key& key, order_outcome outcome, wall_time at = wall_time::never);
 
     std::size_t size() const { return entries_.size(); }

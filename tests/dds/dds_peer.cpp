@@ -2,8 +2,10 @@
 // dds_peer publish PLACE GATEWAY ROUTES: publishes, prints "ready", and ends with its standard input; each line there
 //                                        disposes of the next route.
 // dds_peer watch PLACE json|lines COUNT TIMEOUT_MS [FILTER]...: `plc-gateway watch`; 0 is no count, no timeout.
+// dds_peer orders PLACE GATEWAY CLIENT ROUTE AREA FIRST: see dds_peer_orders.hpp; on the loopback interface.
 #include "bridge/dds/publisher.hpp"
 #include "daemon/watch.hpp"
+#include "tests/dds/dds_peer_orders.hpp"
 
 #include <cstdio>
 #include <cstdlib>
@@ -56,6 +58,11 @@ int main(int argc, char** argv)
         settings.partition = args[1].substr(slash + 1);
     if (args[0] == "publish")
         return publish(settings, args[2], static_cast<unsigned>(std::stoul(args[3])));
+    if (args[0] == "orders" && args.size() == 7) {
+        settings.interface = "lo";
+        const auto first = static_cast<std::uint32_t>(std::stoul(args[6]));
+        return test::give_orders(settings, args[2], args[3], {args[4], args[5], first, {}});
+    }
 
     watch_options options{.dds = settings, .json = args[2] == "json", .count = {}, .timeout = {}, .filter = {}};
     if (args[3] != "0")

@@ -107,6 +107,27 @@ TEST_CASE("order log: a reply of another does not touch what is under way here")
     CHECK(log.came(k1, active).answer == fine);
 }
 
+TEST_CASE("order log: what was under way when the role was lost is the other member's to answer")
+{
+    order_log log(4, 1);
+    CHECK(log.came(k1, active).execute);
+    log.given_up(k1);
+    CHECK(log.under_way() == 0);
+    CHECK_FALSE(log.came(k1, standby).answer);
+    CHECK(log.came(k1, active).answer->result == order_result::timeout);  // active again, and nothing was heard
+
+    const order_key answered{"panel", 2};
+    CHECK(log.came(answered, active).execute);
+    log.heard(answered, {order_result::timeout, 0, "as the other one says"}, wall_time{18});
+    log.given_up(answered);
+    log.given_up(answered);
+    CHECK(log.under_way() == 0);
+    CHECK_FALSE(log.came(answered, active).execute);
+    CHECK(log.came(answered, active).answer->detail == "as the other one says");
+    CHECK(log.came(answered, active).done == wall_time{18});
+    CHECK(log.came({"panel", 3}, active).execute);
+}
+
 TEST_CASE("order log: a repeated answer says when it was done, here or by another member")
 {
     order_log log;
