@@ -111,9 +111,14 @@ class StandbyWritesTest(StandbyTest):
         unknown = [each for each in replies if each["result"] == "TIMEOUT"]
         self.assertLessEqual(len({each["answered"] for each in unknown}), faults,
                              f"only one was under way at each takeover: {unknown[:6]}")
+        # A member that is stopped while it sends a reply to one reader after the other goes on with that when it goes on:
+        # the other one may have said the same in its name by then.
+        first = {(each["answered"], each["done"]): each for each in reversed(replies)}
+        replies = [each for each in replies if first[each["answered"], each["done"]] is each]
         spoke = [each["member"] for each in replies]
+        around = [replies[k - 1:k + 1] for k, who in enumerate(spoke) if k > 0 and spoke[k - 1] != who]
         self.assertEqual([who for k, who in enumerate(spoke) if k == 0 or spoke[k - 1] != who],
-                         [f"m{each}" for each in members], "a standby has answered")
+                         [f"m{each}" for each in members], f"a standby has answered: {around}")
         self.check_wire()
 
     def check_memory(self, member):
