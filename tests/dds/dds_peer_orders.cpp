@@ -77,6 +77,7 @@ private:
                  {"result", to_string(each.outcome.result)},
                  {"detail", each.outcome.detail},
                  {"member", each.member},
+                 {"done", static_cast<std::int64_t>(each.done)},
                  {"at", now_ns()}});
             answered_ = answered_ || each.key.request == next_.key.request;
         }

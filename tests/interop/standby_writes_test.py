@@ -11,7 +11,7 @@ import support
 from standby_support import PATIENCE, StandbyTest, wait_for
 from support import Program, binary
 
-OK_AGAIN = 5  # seconds from the first question of the new member; the client repeats its request every 100 ms
+OK_AGAIN = 10  # seconds on a busy machine, from the first question of the new member; the client repeats its request every 100 ms
 ROUTE, AREA = "pump.setpoint", "holding"
 
 
@@ -52,7 +52,11 @@ class StandbyWritesTest(StandbyTest):
         return {**super().dds(), "domain": 160 + os.getpid() % 16}
 
     def member_configuration(self, number, dds=None, **standby):
-        return super().member_configuration(number, {"writes": True, **(dds or {})}, **standby)
+        made = super().member_configuration(number, {"writes": True, **(dds or {})},
+                                            **{"lease_ms": 2000, "listen_ms": 4000, "line_silence_ms": 4000, **standby})
+        # Each request counts here: on a busy machine no role may change by itself, and no answer be late.
+        made["lines"][0]["response_timeout_ms"] = 1000
+        return made
 
     def ordering(self):
         """Both members, and a client that has been answered for a while."""
@@ -107,9 +111,14 @@ class StandbyWritesTest(StandbyTest):
         unknown = [each for each in replies if each["result"] == "TIMEOUT"]
         self.assertLessEqual(len({each["answered"] for each in unknown}), faults,
                              f"only one was under way at each takeover: {unknown[:6]}")
+        # A member that is stopped while it sends a reply to one reader after the other goes on with that when it goes on:
+        # the other one may have said the same in its name by then.
+        first = {(each["answered"], each["done"]): each for each in reversed(replies)}
+        replies = [each for each in replies if first[each["answered"], each["done"]] is each]
         spoke = [each["member"] for each in replies]
+        around = [replies[k - 1:k + 1] for k, who in enumerate(spoke) if k > 0 and spoke[k - 1] != who]
         self.assertEqual([who for k, who in enumerate(spoke) if k == 0 or spoke[k - 1] != who],
-                         [f"m{each}" for each in members], "a standby has answered")
+                         [f"m{each}" for each in members], f"a standby has answered: {around}")
         self.check_wire()
 
     def check_memory(self, member):
@@ -135,7 +144,7 @@ class StandbyWritesTest(StandbyTest):
         active.signal(signal.SIGCONT)
         continued = time.monotonic_ns()
         self.orders.ok(1, 60, continued)
-        wait_for("it is standby", lambda: self.report(1).get("there", {}).get("role") == "standby")
+        self.stands_by(0)
         self.quiet_watch(5 * self.PERIOD / 1000)  # in which the one that stood still hears the line
         switched = self.switch(1)
         self.taken_over(0, switched)
@@ -144,6 +153,13 @@ class StandbyWritesTest(StandbyTest):
         of_other = self.orders.replies(continued, member="m1")
         self.check_answered_again(0, of_other[-20], *self.orders.replies(result="TIMEOUT"))
         self.check_orders(0, 1, 0, faults=2)
+
+    def stands_by(self, member):
+        """Waits until the other one, which is active, hears it as standby."""
+        def is_standby():
+            there = self.report(1 - member).get("there", {})
+            return there.get("heard") and there.get("role") == "standby"
+        wait_for(f"m{member} is standby", is_standby)
 
     def switch(self, active):
         at = time.monotonic_ns()
@@ -155,7 +171,7 @@ class StandbyWritesTest(StandbyTest):
         self.ordering()
         members = [0]
         for _ in range(6):
-            wait_for("the members hear each other", lambda: self.hears(0) and self.hears(1))
+            self.stands_by(1 - members[-1])
             switched = self.switch(members[-1])
             members.append(1 - members[-1])
             self.taken_over(members[-1], switched)
