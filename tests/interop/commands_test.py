@@ -4,7 +4,7 @@ import json
 import socket
 import subprocess
 
-from support import PATIENCE, InteropTest, binary, main
+from support import PATIENCE, InteropTest, binary, main, wait_for
 
 D0 = M0 = 0
 
@@ -64,6 +64,7 @@ class CommandsTest(InteropTest):
 
     def test_nonsense_on_the_control_socket(self):
         gateway = self.start_gateway(self.configuration())
+        wait_for("the control socket", self.control_socket.exists)
         with socket.socket(socket.AF_UNIX) as client:
             client.settimeout(PATIENCE)
             client.connect(str(self.control_socket))

@@ -40,6 +40,7 @@ class WiresharkTest(InteropTest):
         block = fast.expect("RegisterBlock", {"route": "one.registers"}, words=[4660, 0, 0, 0])
         fast.expect("Point", {"name": "plant.integer"}, integer=4660)
         fast.connected()
+        wait_for("a sample of each topic", lambda: all(fast.of(name) for name in KEYS))
         gateway.stop()
 
         samples = [each for each in self.finished(capture) if each.data]
